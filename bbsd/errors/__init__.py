@@ -1,0 +1,21 @@
+"""What can be said of a mistake in a spec: where it is, what it is, what to do, and how that is shown."""
+
+from bbsd.errors.catalog import KINDS, describe
+from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
+from bbsd.errors.kind import Kind
+from bbsd.errors.rendering import escape, render_json, render_text
+from bbsd.errors.suggestion import did_you_mean
+
+__all__ = [
+    "KINDS",
+    "Diagnosis",
+    "Kind",
+    "Lines",
+    "Place",
+    "SpecError",
+    "describe",
+    "did_you_mean",
+    "escape",
+    "render_json",
+    "render_text",
+]

@@ -1,0 +1,52 @@
+"""One mistake, its place in a file, and the error that carries all the mistakes of one file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Place:
+    """A stretch of one line of a file; line and column count characters from 1, length is in characters too."""
+
+    file: str
+    line: int
+    column: int
+    length: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """What is wrong at a place, and what to do about it where the message does not already say so."""
+
+    code: str
+    message: str
+    place: Place
+    advice: str = ""
+
+
+class Lines(Protocol):
+    """What a diagnosis is shown with: the text it speaks of."""
+
+    def line(self, number: int) -> str:
+        """Return the line of that number, counted from 1, without its break; an empty text if there is none."""
+        ...
+
+
+class SpecError(Exception):
+    """Everything that is wrong with one file."""
+
+    def __init__(self, diagnoses: Iterable[Diagnosis], source: Lines) -> None:
+        self.diagnoses = tuple(diagnoses)
+        self.source = source
+        super().__init__(self.diagnoses, source)
+
+    def __str__(self) -> str:
+        return "\n".join(
+            f"{each.place.file}:{each.place.line}:{each.place.column}: error[{each.code}]: {each.message}"
+            for each in self.diagnoses
+        )

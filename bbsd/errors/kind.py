@@ -1,0 +1,16 @@
+"""What there is to say of one kind of mistake."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of mistake under its stable code: a few words, why it is one, a text that makes it, the same mended."""
+
+    code: str
+    title: str
+    explanation: str
+    example: str
+    mend: str

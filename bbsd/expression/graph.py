@@ -1,0 +1,253 @@
+"""What expressions mean, as a graph of scalar operations in which every distinct value stands once.
+
+Lists, generators, definitions and robots are unrolled while the graph is made, so a node is always one number, one truth
+or one cell index for one robot. Operations on literals are carried out at once, with the functions the kernel uses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum, IntEnum
+from typing import Any
+
+from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
+
+MAX_NODES = 300_000
+
+
+class Kind(Enum):
+    """What a node's value is."""
+
+    NUMBER = "a number"
+    TRUTH = "a truth"
+    CELL = "a cell"
+    UNKNOWN = "unknown"
+    """What could not be understood; it silences mistakes that would only follow from the first."""
+
+
+class Level(IntEnum):
+    """How often a value changes: each level is computed outside the loops of the next."""
+
+    CALL = 0
+    STEP = 1
+    LANE = 2
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Node:
+    """One value. Nodes are equal when they are the same object; `number` is their order of making, operands first."""
+
+    number: int
+    operation: str
+    operands: tuple[Node, ...]
+    data: Hashable
+    kind: Kind
+    level: Level
+
+    @property
+    def literal(self) -> bool:
+        """Whether the value is written in the node itself."""
+        return self.operation == "literal"
+
+
+class GraphTooLarge(Exception):
+    """A spec that unrolls to more values than are allowed."""
+
+
+@dataclass(slots=True)
+class Graph:
+    """Makes nodes, each distinct one once."""
+
+    nodes: dict[tuple[Hashable, ...], Node] = field(default_factory=dict)
+
+    def number(self, value: float) -> Node:
+        """A literal number. Zeros of both signs are different literals."""
+        return self._make("literal", (), (float(value), str(value)), Kind.NUMBER, Level.CALL)
+
+    def truth(self, *, value: bool) -> Node:
+        """A literal truth."""
+        return self._make("literal", (), (bool(value), "truth"), Kind.TRUTH, Level.CALL)
+
+    def cell(self, value: int) -> Node:
+        """A literal cell index."""
+        return self._make("literal", (), (int(value), "cell"), Kind.CELL, Level.CALL)
+
+    @property
+    def unknown(self) -> Node:
+        """The value of what could not be understood."""
+        return self._make("unknown", (), None, Kind.UNKNOWN, Level.CALL)
+
+    def leaf(self, operation: str, data: Hashable, kind: Kind, level: Level) -> Node:
+        """A value that comes from outside the graph: a slot that is read, a constant, the step."""
+        return self._make(operation, (), data, kind, level)
+
+    def draw(self, distribution: str, word: int, operands: tuple[Node, ...]) -> Node:
+        """A draw; `word` names its place in the spec, robot and element, so no two draws are ever the same node."""
+        kind = Kind.TRUTH if distribution == "chance" else Kind.NUMBER
+        return self._make("draw", operands, (distribution, word), kind, Level.LANE)
+
+    def gather(self, base: int, strides: tuple[int, ...], lengths: tuple[int, ...], indices: tuple[Node, ...]) -> Node:
+        """An element of the constants at `base + sum(stride * index)`, each index clamped to its length."""
+        return self._make("gather", indices, (base, strides, lengths), Kind.NUMBER, _highest(indices))
+
+    def apply(self, operation: str, *operands: Node, data: Hashable = None) -> Node:
+        """An operation on nodes; carried out now if all operands are literals."""
+        if any(node.kind is Kind.UNKNOWN for node in operands):
+            return self.unknown
+        simpler = self._simplified(operation, operands)
+        if simpler is not None:
+            return simpler
+        kind = _kind_of(operation, operands)
+        if all(node.literal for node in operands):
+            return self._literal(compute(operation, [value_of(node) for node in operands], data), kind)
+        return self._make(operation, operands, data, kind, _highest(operands))
+
+    def fold(self, operation: str, nodes: Iterable[Node]) -> Node:
+        """The nodes joined from left to right by a binary operation."""
+        first, *rest = nodes
+        for node in rest:
+            first = self.apply(operation, first, node)
+        return first
+
+    def _simplified(self, operation: str, operands: tuple[Node, ...]) -> Node | None:
+        match operation, operands:
+            case "select", (condition, then, otherwise) if condition.literal:
+                return then if value_of(condition) else otherwise
+            case "select", (_, then, otherwise) if then is otherwise:
+                return then
+            case "&" | "|", (left, right) if left.literal or right.literal:
+                known, other = (left, right) if left.literal else (right, left)
+                return other if bool(value_of(known)) == (operation == "&") else known
+        return None
+
+    def _literal(self, value: float | bool, kind: Kind) -> Node:
+        match kind:
+            case Kind.TRUTH:
+                return self.truth(value=bool(value))
+            case Kind.CELL:
+                return self.cell(int(value))
+            case _:
+                return self.number(value)
+
+    def _make(self, operation: str, operands: tuple[Node, ...], data: Hashable, kind: Kind, level: Level) -> Node:
+        key = (operation, kind, data, *(node.number for node in operands))
+        if key not in self.nodes:
+            if len(self.nodes) >= MAX_NODES:
+                raise GraphTooLarge
+            self.nodes[key] = Node(len(self.nodes), operation, operands, data, kind, level)
+        return self.nodes[key]
+
+
+def value_of(node: Node) -> Any:  # noqa: ANN401 - a number, a truth or a cell index
+    """The value of a literal."""
+    assert isinstance(node.data, tuple)
+    return node.data[0]
+
+
+def _highest(nodes: tuple[Node, ...]) -> Level:
+    return max((node.level for node in nodes), default=Level.CALL)
+
+
+def _kind_of(operation: str, operands: tuple[Node, ...]) -> Kind:
+    if operation in COMPARISONS or operation in ("&", "|", "not", "finite"):
+        return Kind.TRUTH
+    if operation in ("int", "clamp_index"):
+        return Kind.CELL
+    if operation == "select":
+        return operands[1].kind
+    return operands[0].kind
+
+
+def compute(operation: str, operands: list[Any], data: Hashable = None) -> Any:  # noqa: ANN401 - as `value_of`
+    """The value of an operation on plain numbers and truths."""
+    if operation in INFIX:
+        return INFIX[operation](*operands)
+    if operation in CALLED:
+        return CALLED[operation](*operands) if data is None else CALLED[operation](*operands, data)
+    if operation == "negate":
+        return -operands[0]
+    if operation == "not":
+        return not operands[0]
+    assert operation == "int", operation
+    return int(operands[0])
+
+
+def needed(outputs: Iterable[Node]) -> list[Node]:
+    """All nodes that the outputs depend on, and they themselves, operands first."""
+    found: dict[int, Node] = {}
+    waiting = list(outputs)
+    while waiting:
+        node = waiting.pop()
+        if node.number not in found:
+            found[node.number] = node
+            waiting.extend(node.operands)
+    return [found[number] for number in sorted(found)]
+
+
+def evaluate(outputs: Iterable[Node], leaf: Callable[[Node, list[Any]], Any]) -> list[Any]:
+    """The values of nodes; `leaf` gives those of leaves and draws (with the values of a draw's operands)."""
+    outputs = list(outputs)
+    values: dict[int, Any] = {}
+    for node in needed(outputs):
+        operands = [values[operand.number] for operand in node.operands]
+        if node.literal:
+            values[node.number] = value_of(node)
+        elif node.operation in LEAVES:
+            values[node.number] = leaf(node, operands)
+        else:
+            values[node.number] = compute(node.operation, operands, node.data)
+    return [values[node.number] for node in outputs]
+
+
+def rebuilt(output: Node, graph: Graph, leaf: Callable[[Node, list[Node]], Node]) -> Node:
+    """The same value with every leaf (and draw, with its rebuilt operands) replaced by what `leaf` gives."""
+    found: dict[int, Node] = {}
+    for node in needed([output]):
+        operands = [found[operand.number] for operand in node.operands]
+        if node.literal or node.kind is Kind.UNKNOWN:
+            found[node.number] = node
+        elif node.operation in LEAVES:
+            found[node.number] = leaf(node, operands)
+        else:
+            found[node.number] = graph.apply(node.operation, *operands, data=node.data)
+    return found[output.number]
+
+
+LEAVES = frozenset({"slot", "constant", "step", "draw", "gather", "choice"})
+
+
+def whole_nodes(outputs: Iterable[Node], whole_slots: Mapping[Hashable, bool], whole_constant: Callable[[Hashable], bool]) -> dict[int, bool]:
+    """For every node needed, whether it is certainly a whole number, given that for slots and constants."""
+    whole: dict[int, bool] = {}
+    for node in needed(outputs):
+        operands = [whole[operand.number] for operand in node.operands]
+        whole[node.number] = _is_whole(node, operands, whole_slots, whole_constant)
+    return whole
+
+
+def _is_whole(node: Node, operands: list[bool], whole_slots: Mapping[Hashable, bool], whole_constant: Callable[[Hashable], bool]) -> bool:
+    match node.operation:
+        case "literal":
+            value = value_of(node)
+            return not isinstance(value, float) or value.is_integer()
+        case "slot":
+            return whole_slots.get(node.data, False)
+        case "constant":
+            return whole_constant(node.data)
+        case "gather":
+            assert isinstance(node.data, tuple)
+            return whole_constant(node.data)
+        case "draw":
+            assert isinstance(node.data, tuple)
+            return node.data[0] == "integers" and all(operands)
+        case "select":
+            return all(operands[1:])
+        case "step" | "floor" | "ceil" | "round_half_even" | "sign" | "int" | "clamp_index":
+            return True
+        case "+" | "-" | "*" | "negate" | "abs" | "minimum" | "maximum" | "floor_divide" | "modulo":
+            return all(operands)
+        case "whole_power":
+            return all(operands) and isinstance(node.data, int) and node.data >= 0
+        case _:
+            return False

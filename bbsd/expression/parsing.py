@@ -1,0 +1,200 @@
+"""Text to tree: the part of Python's expression grammar that the language allows, parsed with `ast`, never run."""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+import warnings
+
+from bbsd.expression.mistakes import ExpressionError, Mistake
+from bbsd.expression.tree import (
+    Binary,
+    Call,
+    Comparison,
+    Conditional,
+    Each,
+    Expr,
+    Index,
+    Logical,
+    Name,
+    Number,
+    Span,
+    Truth,
+    Unary,
+)
+
+MAX_LENGTH = 4000
+MAX_DEPTH = 40
+
+NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
+
+UNARY: dict[type[ast.unaryop], str] = {ast.USub: "-", ast.UAdd: "+", ast.Not: "not"}
+BINARY: dict[type[ast.operator], str] = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+    ast.FloorDiv: "//",
+    ast.Mod: "%",
+    ast.Pow: "**",
+}
+COMPARE: dict[type[ast.cmpop], str] = {
+    ast.Lt: "<",
+    ast.LtE: "<=",
+    ast.Gt: ">",
+    ast.GtE: ">=",
+    ast.Eq: "==",
+    ast.NotEq: "!=",
+}
+REFUSED: dict[type[ast.AST], str] = {
+    ast.Attribute: "attributes (a.b)",
+    ast.Lambda: "lambda",
+    ast.List: "lists in brackets; write a list as a constant, or list(...)",
+    ast.ListComp: "comprehensions in brackets; write list(... for ...)",
+    ast.Tuple: "tuples; two expressions joined by a comma",
+    ast.Dict: "braces",
+    ast.Set: "braces",
+    ast.SetComp: "braces",
+    ast.DictComp: "braces",
+    ast.Slice: "slices",
+    ast.Starred: "the star",
+    ast.NamedExpr: "assignment (:=)",
+    ast.JoinedStr: "text",
+    ast.Await: "await",
+    ast.Yield: "yield",
+    ast.YieldFrom: "yield",
+}
+
+
+def parse(text: str) -> Expr:
+    """The tree of an expression; spans count characters of `text`.
+
+    Raises ExpressionError with the first thing that is not in the grammar.
+    """
+    if len(text) > MAX_LENGTH:
+        raise _error("BB060", f"an expression of {len(text)} characters; at most {MAX_LENGTH} are allowed", 0, 1)
+    if not text.strip():
+        raise _error("BB050", "an expression is missing here", 0, 1)
+    for place, character in enumerate(text):
+        if not (character.isascii() and (character.isprintable() or character in "\n\t")):
+            raise _error("BB050", f"the character {character!r} has no meaning in an expression", place, 1)
+    flat = re.sub(r"[\n\t]", " ", text)
+    stripped = flat.lstrip(" ")
+    shift = len(flat) - len(stripped)
+    return _Builder(shift)(_python(stripped, shift), 0)
+
+
+def _python(text: str, shift: int) -> ast.expr:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what Python would warn of (1if x) is legal, if ugly
+            return ast.parse(text, mode="eval").body
+    except SyntaxError as error:
+        raise _syntax_error(text, shift, error) from None
+    except (MemoryError, RecursionError, ValueError):
+        raise _error("BB060", "this expression is nested too deeply", shift, 1) from None
+
+
+def _syntax_error(text: str, shift: int, error: SyntaxError) -> ExpressionError:
+    start = min(max((error.offset or 1) - 1, 0), max(len(text) - 1, 0))
+    advice = ""
+    if re.search(r"(?<![<>=!:])=(?!=)", text):
+        advice = "equality is written =="
+    elif "&&" in text or "||" in text or "!" in text.replace("!=", ""):
+        advice = "write and, or, not"
+    elif text.count("(") != text.count(")"):
+        advice = "a parenthesis is open or closed too often"
+    elif "^" in text:
+        advice = "a power is written **"
+    what = text[start : start + 12].strip()
+    message = f"this cannot be read as an expression from {what!r} on" if what else "this expression is not complete"
+    return _error("BB050", message, shift + start, max(len(what), 1), advice)
+
+
+def _error(code: str, message: str, start: int, length: int, advice: str = "") -> ExpressionError:
+    return ExpressionError(Mistake(code, message, Span(start, max(length, 1)), advice))
+
+
+class _Builder:
+    """Whitelists Python's nodes and turns them into the language's own."""
+
+    def __init__(self, shift: int) -> None:
+        self.shift = shift
+
+    def span(self, node: ast.expr) -> Span:
+        end = node.end_col_offset if node.end_col_offset is not None else node.col_offset + 1
+        return Span(self.shift + node.col_offset, end - node.col_offset)
+
+    def refuse(self, node: ast.expr, code: str, message: str, advice: str = "") -> ExpressionError:
+        return ExpressionError(Mistake(code, message, self.span(node), advice))
+
+    def __call__(self, node: ast.expr, depth: int) -> Expr:
+        if depth > MAX_DEPTH:
+            raise self.refuse(node, "BB060", f"nested more than {MAX_DEPTH} deep", "name a part of it as a definition")
+        span, deeper = self.span(node), depth + 1
+        match node:
+            case ast.Constant(value=value):
+                return self.constant(node, value)
+            case ast.Name(id=name):
+                return self.name(node, name)
+            case ast.UnaryOp(op=operator, operand=operand) if type(operator) in UNARY:
+                return Unary(UNARY[type(operator)], self(operand, deeper), span)
+            case ast.BinOp(left=left, op=operator, right=right) if type(operator) in BINARY:
+                return Binary(BINARY[type(operator)], self(left, deeper), self(right, deeper), span)
+            case ast.Compare(left=left, ops=operators, comparators=rest):
+                symbols = tuple(self.comparison(node, operator) for operator in operators)
+                return Comparison(symbols, tuple(self(part, deeper) for part in (left, *rest)), span)
+            case ast.BoolOp(op=operator, values=values):
+                symbol = "and" if isinstance(operator, ast.And) else "or"
+                return Logical(symbol, tuple(self(part, deeper) for part in values), span)
+            case ast.IfExp(test=test, body=then, orelse=otherwise):
+                return Conditional(self(test, deeper), self(then, deeper), self(otherwise, deeper), span)
+            case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
+                return Call(function, tuple(self.argument(part, deeper) for part in arguments), span)
+            case ast.Call():
+                raise self.refuse(node, "BB051", "only functions can be called, with plain arguments")
+            case ast.Subscript(value=of, slice=index):
+                return Index(self(of, deeper), self(index, deeper), span)
+            case ast.GeneratorExp():
+                raise self.refuse(node, "BB062", "a generator can only be the one argument of an aggregate")
+            case _:
+                what = REFUSED.get(type(node), "this")
+                raise self.refuse(node, "BB051", f"the language does not have {what}")
+
+    def constant(self, node: ast.expr, value: object) -> Expr:
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            advice = {True: "write true", False: "write false"}.get(value) if isinstance(value, bool) else None
+            what = "text" if isinstance(value, str | bytes) else f"{value!r}"
+            raise self.refuse(node, "BB051", f"the language does not have {what} here", advice or "")
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        if not math.isfinite(number):
+            raise self.refuse(node, "BB051", "this number is too large for binary64")
+        return Number(number, self.span(node))
+
+    def name(self, node: ast.expr, name: str) -> Expr:
+        if name in ("true", "false"):
+            return Truth(name == "true", self.span(node))
+        if not NAME.match(name):
+            raise self.refuse(node, "BB051", f"{name!r} cannot be a name; names are small letters, digits and _")
+        return Name(name, self.span(node))
+
+    def comparison(self, node: ast.expr, operator: ast.cmpop) -> str:
+        if type(operator) not in COMPARE:
+            raise self.refuse(node, "BB051", "the language does not have in and is", "compare with == or !=")
+        return COMPARE[type(operator)]
+
+    def argument(self, node: ast.expr, depth: int) -> Expr:
+        if not isinstance(node, ast.GeneratorExp):
+            return self(node, depth)
+        (first, *more) = node.generators
+        if more or first.ifs or first.is_async:
+            raise self.refuse(node, "BB062", "one for, without if", "use a conditional: x if ... else ...")
+        targets = first.target.elts if isinstance(first.target, ast.Tuple) else [first.target]
+        names = tuple(target.id for target in targets if isinstance(target, ast.Name) and NAME.match(target.id))
+        if len(names) != len(targets) or len(set(names)) != len(names):
+            raise self.refuse(first.target, "BB062", "after for stand different names, like x or x, y")
+        return Each(self(node.elt, depth + 1), names, self(first.iter, depth + 1), self.span(node))

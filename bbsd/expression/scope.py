@@ -1,0 +1,115 @@
+"""Where an expression stands: what its names mean there, which robot it is for, and who hears of its mistakes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, field, replace
+
+from bbsd.expression.graph import Graph, Node
+from bbsd.expression.mistakes import Mistake
+from bbsd.expression.tree import Expr, Span
+
+Path = tuple[str | int, ...]
+"""Where something stands in a spec: keys and positions from the top."""
+
+Value = Node | tuple["Value", ...]
+"""A scalar, or a list of values."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """A name with one value for all robots: a constant, a value of the world, the step."""
+
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class Deferred:
+    """A shared name whose value is made when it is first used."""
+
+    value: Callable[[], Value]
+
+
+@dataclass(frozen=True, slots=True)
+class PerRobot:
+    """A name with a value for each robot: state and sensors."""
+
+    value: Callable[[int], Value]
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """A name that stands for an expression, evaluated where it is used."""
+
+    parameters: tuple[str, ...]
+    expression: Expr
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Unusable:
+    """A name that exists but means nothing here, and why; without a reason it was diagnosed already."""
+
+    code: str = ""
+    reason: str = ""
+    advice: str = ""
+
+
+Binding = Shared | Deferred | PerRobot | Definition | Unusable
+
+
+@dataclass(slots=True)
+class Findings:
+    """What came to light while expressions were elaborated."""
+
+    mistakes: dict[tuple[Path, Mistake], None] = field(default_factory=dict)
+    """In the order of finding, each once though definitions are elaborated many times."""
+    wholes: list[tuple[Path, Span, str, Node]] = field(default_factory=list)
+    """Values that must turn out to be whole numbers, and what for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Draws:
+    """The stream of draws of one expression: its place's name, the number of each draw in it, the elements around it."""
+
+    place: str
+    ordinals: Mapping[Span, int] = field(default_factory=dict)
+    elements: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """Everything that elaborating an expression depends on besides the expression."""
+
+    graph: Graph
+    names: Mapping[str, Binding]
+    findings: Findings
+    robots: int = 1
+    robot: int | None = None
+    """None where the team is meant."""
+    path: Path = ()
+    local: Mapping[str, Value] = field(default_factory=dict)
+    before: Scope | None = None
+    """The scope of the decision, for `before(e)`."""
+    starting: bool = False
+    """At the start of an episode, where `before(e)` is e."""
+    draws: Draws | None = None
+    """None where nothing may be drawn."""
+    static: Callable[[Node], float | None] = lambda _: None
+    """The value of a constant node, where it is the same for the whole run."""
+    memo: dict[Hashable, Value] = field(default_factory=dict)
+    """Values of definitions in this phase."""
+
+    def at(self, path: Path, robot: int | None = None, *, draws: bool = False) -> Scope:
+        """The same names for another expression."""
+        place = Draws(".".join(str(part) for part in path)) if draws else None
+        return replace(self, path=path, robot=robot, draws=place, local={})
+
+    def binding(self, names: Mapping[str, Value]) -> Scope:
+        """The same place with names of a generator in front."""
+        return replace(self, local={**self.local, **names})
+
+    def mistake(self, code: str, message: str, span: Span, advice: str = "") -> Node:
+        """Tell of a mistake; the value is unknown from then on."""
+        self.findings.mistakes[self.path, Mistake(code, message, span, advice)] = None
+        return self.graph.unknown

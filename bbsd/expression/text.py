@@ -1,0 +1,73 @@
+"""A tree back to text that parses to the same tree, with no more parentheses than it needs."""
+
+from __future__ import annotations
+
+from bbsd.expression.tree import (
+    Binary,
+    Call,
+    Comparison,
+    Conditional,
+    Each,
+    Expr,
+    Index,
+    Logical,
+    Name,
+    Number,
+    Truth,
+    Unary,
+)
+
+LEVELS = {"if": 0, "or": 1, "and": 2, "not": 3, "<": 4, "+": 5, "-": 5, "*": 6, "/": 6, "//": 6, "%": 6, "**": 8}
+SIGN, POWER, ATOM = 7, 8, 9
+
+
+def number_text(value: float) -> str:
+    """The shortest text of a number; whole numbers without a point."""
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+
+
+def render(expr: Expr) -> str:
+    """The text of an expression."""
+    return _render(expr)[0]
+
+
+def _at_least(expr: Expr, level: int) -> str:
+    text, own = _render(expr)
+    return text if own >= level else f"({text})"
+
+
+def _render(expr: Expr) -> tuple[str, int]:
+    match expr:
+        case Number(value=value):
+            return number_text(value), ATOM if value >= 0 else SIGN
+        case Truth(value=value):
+            return str(value).lower(), ATOM
+        case Name(name=name):
+            return name, ATOM
+        case Unary(operator="not", operand=operand):
+            return f"not {_at_least(operand, LEVELS['not'])}", LEVELS["not"]
+        case Unary(operator=operator, operand=operand):
+            return f"{operator}{_at_least(operand, SIGN)}", SIGN
+        case Binary(operator="**", left=left, right=right):
+            return f"{_at_least(left, ATOM)} ** {_at_least(right, SIGN)}", POWER
+        case Binary(operator=operator, left=left, right=right):
+            level = LEVELS[operator]
+            return f"{_at_least(left, level)} {operator} {_at_least(right, level + 1)}", level
+        case Comparison(operators=operators, operands=operands):
+            first, *rest = (_at_least(operand, LEVELS["<"] + 1) for operand in operands)
+            tail = "".join(f" {operator} {text}" for operator, text in zip(operators, rest, strict=True))
+            return first + tail, LEVELS["<"]
+        case Logical(operator=operator, operands=operands):
+            level = LEVELS[operator]
+            return f" {operator} ".join(_at_least(operand, level + 1) for operand in operands), level
+        case Conditional(condition=condition, then=then, otherwise=otherwise):
+            level = LEVELS["or"]
+            text = f"{_at_least(then, level)} if {_at_least(condition, level)} else {_at_least(otherwise, 0)}"
+            return text, LEVELS["if"]
+        case Call(function=function, arguments=arguments):
+            return f"{function}({', '.join(_render(argument)[0] for argument in arguments)})", ATOM
+        case Index(of=of, index=index):
+            return f"{_at_least(of, ATOM)}[{_render(index)[0]}]", ATOM
+        case Each(element=element, names=names, source=source):
+            text = f"{_at_least(element, 0)} for {', '.join(names)} in {_at_least(source, LEVELS['or'])}"
+            return text, LEVELS["if"]

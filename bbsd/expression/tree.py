@@ -1,0 +1,149 @@
+"""The parts of an expression, each with the span of text it was written in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class Span(NamedTuple):
+    """Characters `start` to `start + length` of an expression's text."""
+
+    start: int
+    length: int
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number as written."""
+
+    value: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """`true` or `false`."""
+
+    value: bool
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A name, to be looked up where the expression is used."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    """`-x`, `+x` or `not x`."""
+
+    operator: str
+    operand: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """Two operands and one of `+ - * / // % **`."""
+
+    operator: str
+    left: Expr
+    right: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """`a < b <= c`: one operator fewer than operands."""
+
+    operators: tuple[str, ...]
+    operands: tuple[Expr, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Logical:
+    """Operands joined by `and` or by `or`."""
+
+    operator: str
+    operands: tuple[Expr, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Conditional:
+    """`then if condition else otherwise`; both arms are evaluated."""
+
+    condition: Expr
+    then: Expr
+    otherwise: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A listed function, aggregate, draw or definition with its arguments."""
+
+    function: str
+    arguments: tuple[Expr, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """`of[index]`."""
+
+    of: Expr
+    index: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Each:
+    """`element for names in source`, the only argument of an aggregate."""
+
+    element: Expr
+    names: tuple[str, ...]
+    source: Expr
+    span: Span
+
+
+Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Conditional | Call | Index | Each
+
+
+def parts(expr: Expr) -> tuple[Expr, ...]:
+    """The expressions that `expr` is directly made of, in the order they are written."""
+    match expr:
+        case Number() | Truth() | Name():
+            return ()
+        case Unary(operand=operand):
+            return (operand,)
+        case Binary(left=left, right=right):
+            return (left, right)
+        case Comparison(operands=operands) | Logical(operands=operands):
+            return operands
+        case Conditional(condition=condition, then=then, otherwise=otherwise):
+            return (then, condition, otherwise)
+        case Call(arguments=arguments):
+            return arguments
+        case Index(of=of, index=index):
+            return (of, index)
+        case Each(element=element, source=source):
+            return (element, source)
+
+
+def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[str]:
+    """All names and called functions in `expr` that it does not itself bind."""
+    match expr:
+        case Name(name=name):
+            return frozenset({name}) - hidden
+        case Call(function=function, arguments=arguments):
+            return (frozenset({function}) - hidden).union(*(names_used(part, hidden) for part in arguments))
+        case Each(element=element, names=names, source=source):
+            return names_used(source, hidden) | names_used(element, hidden | frozenset(names))
+        case _:
+            return frozenset().union(*(names_used(part, hidden) for part in parts(expr)))

@@ -1,0 +1,74 @@
+"""The words of the expression language: functions, aggregates, draws, and what is reserved."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import NamedTuple
+
+
+class Function(NamedTuple):
+    """A function of numbers: how many it takes, the kernel's function, and what it gives."""
+
+    arity: int
+    operation: str
+    meaning: str
+
+
+FUNCTIONS: dict[str, Function] = {
+    "abs": Function(1, "abs", "absolute value"),
+    "acos": Function(1, "acos", "arc cosine, in radians"),
+    "asin": Function(1, "asin", "arc sine, in radians"),
+    "atan": Function(1, "atan", "arc tangent, in radians"),
+    "atan2": Function(2, "atan2", "angle of the point (second, first), in radians"),
+    "ceil": Function(1, "ceil", "smallest whole number not below"),
+    "cos": Function(1, "cos", "cosine of radians"),
+    "degrees": Function(1, "degrees", "radians to degrees"),
+    "exp": Function(1, "exp", "power of e"),
+    "floor": Function(1, "floor", "largest whole number not above"),
+    "hypot": Function(2, "hypot", "length of the vector (first, second)"),
+    "log": Function(1, "log", "natural logarithm"),
+    "log10": Function(1, "log10", "logarithm to base 10"),
+    "log2": Function(1, "log2", "logarithm to base 2"),
+    "radians": Function(1, "radians", "degrees to radians"),
+    "round": Function(1, "round_half_even", "nearest whole number, halves to the even one"),
+    "sign": Function(1, "sign", "-1, 0 or 1"),
+    "sin": Function(1, "sin", "sine of radians"),
+    "sqrt": Function(1, "sqrt", "square root"),
+    "tan": Function(1, "tan", "tangent of radians"),
+    "tanh": Function(1, "tanh", "hyperbolic tangent"),
+}
+
+AGGREGATES: dict[str, str] = {
+    "all": "true where all are",
+    "any": "true where one is",
+    "argmax": "the first v for which e is largest",
+    "argmin": "the first v for which e is smallest",
+    "list": "a list of the elements",
+    "max": "the largest",
+    "mean": "the sum divided by the number",
+    "min": "the smallest",
+    "sum": "the sum, from left to right",
+}
+
+DRAWS: dict[str, tuple[int, str]] = {
+    "chance": (1, "true with the given probability"),
+    "integers": (2, "a whole number from the first to the last, both included"),
+    "normal": (2, "Gaussian with mean and standard deviation"),
+    "uniform": (2, "uniform from the first up to the second"),
+}
+
+CONSTANTS: dict[str, float] = {"pi": pi}
+"""Numbers every expression may use."""
+
+SOURCES = ("team", "others", "range")
+PARTITIONS = ("cut", "values")
+CELL_WORDS = ("otherwise", "below", "to", "from", "open", "no", "action", "nobody")
+OPERATORS = ("and", "or", "not", "if", "else", "for", "in", "is", "lambda", "true", "false")
+POSITIONS = ("step", "steps", "robot", "robots", "episode", "episodes", "generation", "generations", "before")
+
+RESERVED: frozenset[str] = frozenset(
+    (*FUNCTIONS, *AGGREGATES, *DRAWS, *CONSTANTS, *SOURCES, *PARTITIONS, *CELL_WORDS, *OPERATORS, "no", "as", "def")
+    + POSITIONS
+    + ("yes", "off", "on", "null")
+)
+"""Words that cannot name anything in a spec."""

@@ -1,0 +1,1 @@
+"""What compiles and what is compiled: exact primitives, elementary functions, random streams, generated modules."""

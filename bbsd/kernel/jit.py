@@ -1,0 +1,92 @@
+"""The one place that compiles: how numba is imported, where its cache lies, the options of every compiled function."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from bbsd.kernel import functions, streams
+from bbsd.kernel.modules import cache_folder, kernel_digest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+Function = TypeVar("Function", bound="Callable[..., Any]")
+
+CONFIG_FILE = ".numba_config.yaml"
+
+
+@contextmanager
+def _config_file_unseen() -> Iterator[None]:
+    """Hides numba's configuration file: a folder that the user only looks into must not decide what numba does."""
+    seen = os.path.isfile
+    vars(os.path)["isfile"] = lambda path: path != CONFIG_FILE and seen(path)
+    try:
+        yield
+    finally:
+        vars(os.path)["isfile"] = seen
+
+
+with _config_file_unseen():
+    import numba
+    from numba.core import config
+    from numba.core.dispatcher import Dispatcher
+    from numba.extending import register_jitable
+
+    from bbsd.kernel import intrinsics
+
+# numba looks for the file again at every compilation; and someone else may have imported numba before.
+vars(config)["_config_fname"] = os.devnull
+config.reload_config()
+
+OPTIONS = {"error_model": "numpy", "nogil": True}
+LIBRARY_OPTIONS = {
+    "error_model": "numpy",
+    "forceinline": True,
+}  # a call in a loop over lanes would keep it scalar
+
+intrinsics.register(**LIBRARY_OPTIONS)
+for _function in functions.COMPILABLE + streams.COMPILABLE:
+    register_jitable(**LIBRARY_OPTIONS)(_function)
+
+
+def jit(function: Function) -> Function:
+    """The function, compiled when it is called, with strict floating point, without the GIL, cached on disk.
+
+    numba's cache knows the text of the function's own file; the folder it lies in is named by what else it calls.
+    """
+    kept = config.CACHE_DIR
+    config.CACHE_DIR = str(cache_folder("compiled") / _stamp(function))
+    try:
+        compiled: Function = numba.njit(cache=True, **OPTIONS)(function)
+    finally:
+        config.CACHE_DIR = kept
+    return compiled
+
+
+def _stamp(function: Callable[..., Any]) -> str:
+    """A name for all that is compiled into the function: this package, the files of compiled functions, constants."""
+    known = sha256(kernel_digest().encode())
+    for file, numbers in sorted(_compiled_in(function, {}).items()):
+        known.update(f"{_text_digest(file)}{numbers}".encode())
+    return known.hexdigest()[:16]
+
+
+def _compiled_in(function: Callable[..., Any], found: dict[str, str]) -> dict[str, str]:
+    """The numbers among the globals of the function's file and of every file that its compiled globals come from."""
+    names = function.__globals__
+    numbers = {name: value for name, value in names.items() if isinstance(value, int | float)}
+    found[function.__code__.co_filename] = repr(sorted(numbers.items()))
+    for value in list(names.values()):
+        if isinstance(value, Dispatcher) and value.py_func.__code__.co_filename not in found:
+            _compiled_in(value.py_func, found)
+    return found
+
+
+@cache
+def _text_digest(file: str) -> str:
+    return sha256(Path(file).read_bytes()).hexdigest()

@@ -1,0 +1,94 @@
+"""The operations that everything else is built of: exact, or rounded once as IEEE 754 says, so the same bits on any machine.
+
+Plain Python here; `kernel.intrinsics` gives compiled code the one machine instruction that does the same. None of them
+raises for a float: where Python would, they return the infinity or NaN that the hardware does.
+"""
+
+from __future__ import annotations
+
+import math
+from struct import Struct
+from typing import TypeVar
+
+Value = TypeVar("Value", int, float)
+
+INFINITY = math.inf
+NAN = math.nan
+MASK = 0xFFFFFFFFFFFFFFFF
+WHOLE = 2.0**52  # from here on every binary64 number is whole
+
+_FLOAT = Struct("<d")
+_SIGNED = Struct("<q")
+_UNSIGNED = Struct("<Q")
+
+
+def select(condition: bool, then: Value, otherwise: Value) -> Value:
+    """`then` where the condition holds, else `otherwise`; both are evaluated, nothing branches."""
+    return then if condition else otherwise
+
+
+def bits_of(x: float) -> int:
+    """The 64 bits of a binary64 number as a signed whole number."""
+    bits: int = _SIGNED.unpack(_FLOAT.pack(x))[0]
+    return bits
+
+
+def float_of(bits: int) -> float:
+    """The binary64 number whose bits are the lowest 64 of a whole number."""
+    x: float = _FLOAT.unpack(_UNSIGNED.pack(bits & MASK))[0]
+    return x
+
+
+def word_of(number: int) -> int:
+    """A whole number as an unsigned 64-bit word; in compiled code the only way from int64 to uint64."""
+    return int(number) & MASK
+
+
+def copysign(magnitude: float, sign: float) -> float:
+    """The magnitude of the first with the sign bit of the second."""
+    return math.copysign(magnitude, sign)
+
+
+def divide(dividend: float, divisor: float) -> float:
+    """The quotient: an infinity where only the divisor is zero, NaN where both are."""
+    if divisor:
+        return dividend / divisor
+    return dividend * math.copysign(INFINITY, divisor)
+
+
+def sqrt(x: float) -> float:
+    """The square root, NaN below zero."""
+    return math.sqrt(x) if x >= 0.0 else NAN
+
+
+def round_half_even(x: float) -> float:
+    """The nearest whole number, the even one of two; keeps the sign of zero."""
+    if abs(x) < WHOLE:
+        return math.copysign((abs(x) + WHOLE) - WHOLE, x)
+    return x
+
+
+def floor(x: float) -> float:
+    """The greatest whole number that is not above x."""
+    nearest = round_half_even(x)
+    return math.copysign(nearest - 1.0, x) if nearest > x else nearest
+
+
+def ceil(x: float) -> float:
+    """The least whole number that is not below x."""
+    nearest = round_half_even(x)
+    return math.copysign(nearest + 1.0, x) if nearest < x else nearest
+
+
+PRIMITIVES = (
+    select,
+    bits_of,
+    float_of,
+    word_of,
+    copysign,
+    divide,
+    sqrt,
+    round_half_even,
+    floor,
+    ceil,
+)

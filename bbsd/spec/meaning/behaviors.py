@@ -1,0 +1,147 @@
+"""What a behavior module means: its table's cells, where it is excited, and what its actions set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import prod
+
+from bbsd.errors import did_you_mean
+from bbsd.expression import elaboration
+from bbsd.expression.graph import Kind, Node
+from bbsd.expression.mistakes import Mistake
+from bbsd.expression.scope import Path
+from bbsd.expression.tree import Name, Span
+from bbsd.spec.meaning.names import Moment, Names
+from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
+from bbsd.spec.meaning.rules import Table, table
+from bbsd.spec.models import Behavior, PartitionText
+from bbsd.spec.written import Expression
+
+MAX_ACTIONS = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Module:
+    """One behavior (1), for all robots.
+
+    `inputs` are the cells of each input, in the order of the table's dimensions; `cells[robot]` their indices,
+    `excited[robot]` where it is excited, `actions[action][state][robot]` what an action sets.
+    """
+
+    name: str
+    inputs: Mapping[str, tuple[str, ...]]
+    cells: tuple[tuple[Node, ...], ...]
+    excited: tuple[Node, ...]
+    actions: Mapping[str, Mapping[str, tuple[Node, ...]]]
+    table: Table
+
+    @property
+    def n_cells(self) -> int:
+        """The number of cells of the behavior's table."""
+        return prod(len(cells) for cells in self.inputs.values())
+
+
+def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]) -> Module | None:
+    """The meaning of a behavior at the decision; None where its inputs could not be understood."""
+    names, path = decision.names, ("behaviors", name)
+    excited = tuple(_excited(written, decision, (*path, "excited"), robot) for robot in names.robots)
+    actions = {
+        action: _action(sets, decision, (*path, "actions", action), kinds) for action, sets in written.actions.items()
+    }
+    if not 1 <= len(actions) <= MAX_ACTIONS:
+        _tell(names, (*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions")
+    per_robot = [_inputs(written, decision, (*path, "inputs"), robot) for robot in names.robots]
+    understood = [inputs for inputs in per_robot if inputs is not None]
+    if len(understood) < len(per_robot):
+        return None
+    inputs = {key: found.cells for key, found in understood[0].items()}
+    if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
+        advice = "cut the inputs more coarsely"
+        _tell(names, (*path, "inputs"), "BB039", f"this table would have more than {MAX_CELLS} cells", advice)
+        return None
+    cells = tuple(tuple(found.index for found in robot.values()) for robot in understood)
+    given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings)
+    return Module(name, inputs, cells, excited, actions, given)
+
+
+def _tell(names: Names, path: Path, code: str, message: str, advice: str = "") -> None:
+    names.findings.mistakes[path, Mistake(code, message, Span(0, 0), advice)] = None
+
+
+def _excited(written: Behavior, decision: Moment, path: Path, robot: int) -> Node:
+    if written.excited is None:
+        return decision.names.graph.truth(value=True)
+    return elaboration.truth(written.excited.tree, decision.scope.at(path, robot))
+
+
+def _action(
+    sets: Mapping[str, Expression], decision: Moment, path: Path, kinds: Mapping[str, Kind]
+) -> dict[str, tuple[Node, ...]]:
+    """What an action sets, for each robot; only the robot's own state can be set."""
+    names = decision.names
+    meant = {}
+    for target, written in sets.items():
+        here = (*path, target)
+        if target not in names.spec.environment.state:
+            if target not in names.unusable:
+                _tell(names, here, "BB033", _not_state(target, names), "actions set a robot's own state")
+            continue
+        read = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
+        meant[target] = tuple(read(written.tree, decision.scope.at(here, robot, draws=True)) for robot in names.robots)
+    return meant
+
+
+def _not_state(target: str, names: Names) -> str:
+    environment = names.spec.environment
+    known = {
+        "a value of the world": environment.world,
+        "a sensor": environment.sensors,
+        "a constant": names.spec.constants,
+        "a definition": names.definitions,
+    }
+    for what, those in known.items():
+        if target in those:
+            return f"{target} is {what}, and an action cannot set it"
+    return f'"{target}" is not state{did_you_mean(target, environment.state)}'
+
+
+def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict[str, Partition] | None:
+    """A robot's partitions by input; None after a mistake."""
+    if isinstance(written.inputs, dict):
+        found = {name: _own(cut, decision, (*path, name), robot) for name, cut in written.inputs.items()}
+    else:
+        found = {name: _shared(name, decision, (*path, place), robot) for place, name in enumerate(written.inputs)}
+        for place, name in enumerate(written.inputs):
+            if name in written.inputs[:place]:
+                _tell(decision.names, (*path, place), "BB040", f"{name} is listed twice")
+    understood = {name: part for name, part in found.items() if part is not None}
+    return understood if len(understood) == len(written.inputs) else None
+
+
+def _own(cut: PartitionText, decision: Moment, path: Path, robot: int) -> Partition | None:
+    """An input's own partition; the bare name of a sensor that is one stands for that."""
+    sensors = decision.names.spec.environment.sensors
+    if isinstance(cut, Expression) and isinstance(cut.tree, Name) and cut.tree.name in sensors:
+        return _shared(cut.tree.name, decision, path, robot)
+    return partition(cut, decision.scope.at(path, robot), path, robot)
+
+
+def _shared(name: str, decision: Moment, path: Path, robot: int) -> Partition | None:
+    """The partition that a sensor is; a truth is one of two cells."""
+    names, sensors = decision.names, decision.names.spec.environment.sensors
+    if name in names.unusable:
+        return None
+    if name not in sensors:
+        advice = "inputs lists sensors; other partitions are written as a mapping: name, then what it cuts"
+        _tell(names, path, "BB041", f'"{name}" is not a sensor{did_you_mean(name, sensors)}', advice)
+        return None
+    if is_partition(sensors[name]):
+        return decision.partition(name, robot)
+    found = decision.value(name, robot)
+    if isinstance(found, tuple) or found.kind is Kind.NUMBER:
+        what = "a list" if isinstance(found, tuple) else "a number"
+        advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
+        _tell(names, path, "BB030", f"an input needs a partition, and {name} is {what}", advice)
+        return None
+    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("int", found))

@@ -1,0 +1,149 @@
+"""The values of constants: numbers, tables, draws; some change with the generation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+from bbsd.expression import elaboration
+from bbsd.expression.graph import Graph, Kind, Level, Node, evaluate, needed, rebuilt, value_of, whole_nodes
+from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
+from bbsd.kernel import streams
+from bbsd.spec.meaning.order import in_order
+from bbsd.spec.models import ConstantValue
+from bbsd.spec.written import Expression
+
+GENERATION = "generation"
+
+
+@dataclass(frozen=True, slots=True)
+class Constants:
+    """Constants of one command: where each scalar stands in the vector that the kernel gets, and its value.
+
+    `values` are nested tuples of nodes: literals, or expressions of the generation.
+    """
+
+    values: Mapping[str, Value]
+    scalars: tuple[Node, ...]
+    leaves: Mapping[str, Value]
+    """The same shapes, as the leaves by which a kernel reads them."""
+
+    def vector(self, generation: int) -> list[float]:
+        """All scalars in order, as they are in a generation (counted from 1)."""
+        return [float(value) for value in evaluate(self.scalars, lambda node, _: _generation(node, generation))]
+
+    def plain(self, name: str) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
+        """A constant's value as plain data; None where it depends on the generation."""
+        return _plain(self.values[name])
+
+    def static(self, node: Node) -> float | None:
+        """The value of a node of constants, where it is the same in every generation."""
+        leaves = [found for found in needed([node]) if not found.operands and not found.literal]
+        if any(found.operation != "constant" or not self.scalars[cast("int", found.data)].literal for found in leaves):
+            return None
+        return cast("float", evaluate([node], lambda found, _: value_of(self.scalars[cast("int", found.data)]))[0])
+
+    def whole(self, data: object) -> bool:
+        """Whether a constant, or every constant that a gather may read, is certainly whole."""
+        if isinstance(data, int):
+            return self._is_whole(data)
+        base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", data)
+        places = [base]
+        for stride, length in zip(strides, lengths, strict=True):
+            places = [place + stride * step for place in places for step in range(length)]
+        return all(self._is_whole(place) for place in places)
+
+    def _is_whole(self, place: int) -> bool:
+        node = self.scalars[place]
+        return whole_nodes([node], {GENERATION: True}, lambda _: False)[node.number]
+
+
+def _generation(node: Node, generation: int) -> float:
+    assert node.operation == "slot", node.operation
+    return float(generation)
+
+
+def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value_of(value) if value.literal else None
+
+
+def read_constants(
+    written: Mapping[str, ConstantValue], seed_key: int, graph: Graph, findings: Findings, cyclic: frozenset[str]
+) -> Constants:
+    """Evaluate the constants; draws come from the stream of (seed, the constant's name)."""
+    bindings: dict[str, Binding] = {GENERATION: Shared(graph.leaf("slot", GENERATION, Kind.NUMBER, Level.CALL))}
+    base = Scope(graph, bindings, findings, static=lambda node: cast("float", value_of(node)) if node.literal else None)
+    constants_key = streams.fold(seed_key, streams.name_word("constants"))
+    values: dict[str, Value] = {}
+    for name in _in_order(written, cyclic):
+        path: Path = ("constants", name)
+        key = streams.fold(constants_key, streams.name_word(name))
+        values[name] = _settled(_read(written[name], base, path), key, base.at(path), written[name])
+        bindings[name] = Shared(values[name])
+    bindings.update({name: Unusable() for name in cyclic})
+    ordered = {name: values[name] for name in written if name in values}
+    scalars: list[Node] = []
+    leaves = {name: _leaf(value, scalars, graph) for name, value in ordered.items()}
+    return Constants(ordered, tuple(scalars), leaves)
+
+
+def _in_order(written: Mapping[str, ConstantValue], cyclic: frozenset[str]) -> list[str]:
+    return in_order({name: expressions_in(value) for name, value in written.items() if name not in cyclic})
+
+
+def expressions_in(value: ConstantValue) -> list[Expression]:
+    """All expressions a constant is written with."""
+    if isinstance(value, tuple):
+        return [expression for item in value for expression in expressions_in(item)]
+    return [value]
+
+
+def _read(written: ConstantValue, scope: Scope, path: Path) -> Value:
+    if isinstance(written, tuple):
+        return tuple(_read(item, scope, (*path, place)) for place, item in enumerate(written))
+    found = elaboration.value(written.tree, scope.at(path, 0, draws=True))
+    return _numbers_only(found, scope.at(path), written)
+
+
+def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
+    if isinstance(value, tuple):
+        return tuple(_numbers_only(item, scope, written) for item in value)
+    if value.kind is Kind.TRUTH:
+        return scope.mistake("BB055", "a constant is a number or a list of numbers, not a truth", written.tree.span)
+    return value
+
+
+def _settled(value: Value, key: int, scope: Scope, written: ConstantValue) -> Value:
+    """The value with its draws drawn from the stream of `key`; what depends on the generation stays an expression."""
+    if isinstance(value, tuple):
+        parts = written if isinstance(written, tuple) else (written,) * len(value)
+        return tuple(_settled(item, key, scope, part) for item, part in zip(value, parts, strict=True))
+    try:
+        return rebuilt(value, scope.graph, lambda node, operands: _drawn(node, operands, key, scope.graph))
+    except _DrawsWithGeneration:
+        span = expressions_in(written)[0].tree.span
+        return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)
+
+
+class _DrawsWithGeneration(Exception):
+    pass
+
+
+def _drawn(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
+    if node.operation != "draw":
+        return node
+    if not all(operand.literal for operand in operands):
+        raise _DrawsWithGeneration
+    distribution, word = cast("tuple[str, int]", node.data)
+    drawn = streams.DISTRIBUTIONS[distribution](key, word, *(value_of(operand) for operand in operands))
+    return graph.truth(value=bool(drawn)) if node.kind is Kind.TRUTH else graph.number(drawn)
+
+
+def _leaf(value: Value, scalars: list[Node], graph: Graph) -> Value:
+    if isinstance(value, tuple):
+        return tuple(_leaf(item, scalars, graph) for item in value)
+    scalars.append(value)
+    return value if value.kind is Kind.UNKNOWN else graph.leaf("constant", len(scalars) - 1, Kind.NUMBER, Level.CALL)

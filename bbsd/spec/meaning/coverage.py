@@ -1,0 +1,103 @@
+"""Whether conditions provably cover everything: by cases over the comparisons they are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import product
+
+from bbsd.expression.graph import Graph, Kind, Node, needed, value_of
+from bbsd.expression.operations import COMPARISONS, INFIX
+
+MAX_CASES = 4096
+
+MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
+
+
+def covers_everything(conditions: list[Node], graph: Graph) -> bool:
+    """True if at least one condition holds in every case that numbers can be in.
+
+    Comparisons of one value with known bounds are decided together, in and between the bounds; two values are below, equal or
+    above; anything else is free. NaN is not a case: what is not a number falls into the last cell.
+    """
+    anything = graph.fold("|", conditions)
+    if anything.literal:
+        return bool(value_of(anything))
+    atoms = [node for node in needed([anything]) if _is_atom(node)]
+    cases = 1
+    choices: dict[tuple[int, ...], list[dict[int, bool]]] = {}
+    for key, group in _groups(atoms).items():
+        choices[key] = _cases(group)
+        cases *= len(choices[key])
+        if cases > MAX_CASES:
+            return False
+    return all(_holds(anything, combination) for combination in product(*choices.values()))
+
+
+def _is_atom(node: Node) -> bool:
+    return node.kind is Kind.TRUTH and not node.literal and node.operation not in ("&", "|", "not", "select", "int")
+
+
+def _groups(atoms: Iterable[Node]) -> dict[tuple[int, ...], list[Node]]:
+    groups: dict[tuple[int, ...], list[Node]] = {}
+    for atom in atoms:
+        groups.setdefault(_subject(atom), []).append(atom)
+    return groups
+
+
+def _subject(atom: Node) -> tuple[int, ...]:
+    """Atoms about the same thing have the same subject: the value compared with numbers, or the pair of values."""
+    if atom.operation not in COMPARISONS:
+        return (-1, atom.number)
+    left, right = atom.operands
+    if right.literal or left.literal:
+        return ((left if right.literal else right).number,)
+    return tuple(sorted((left.number, right.number)))
+
+
+def _cases(group: list[Node]) -> list[dict[int, bool]]:
+    first = group[0]
+    if first.operation not in COMPARISONS:
+        return [{first.number: truth} for truth in (False, True)]
+    if any(node.literal for node in first.operands):
+        bounds = sorted({float(value_of(node)) for atom in group for node in atom.operands if node.literal})
+        between = [(low + high) / 2 for low, high in zip(bounds, bounds[1:], strict=False)]
+        points = [bounds[0] - 1, *bounds, *between, bounds[-1] + 1]
+        return [{atom.number: _compared(atom, point) for atom in group} for point in points]
+    return [{atom.number: _ordered(atom, order) for atom in group} for order in (-1, 0, 1)]
+
+
+def _compared(atom: Node, point: float) -> bool:
+    left, right = (value_of(node) if node.literal else point for node in atom.operands)
+    return bool(INFIX[atom.operation](left, right))
+
+
+def _ordered(atom: Node, order: int) -> bool:
+    left, right = atom.operands
+    operation = atom.operation if left.number < right.number else MIRRORED[atom.operation]
+    return bool(INFIX[operation](order, 0))
+
+
+def _holds(condition: Node, combination: Iterable[Mapping[int, bool]]) -> bool:
+    truths: dict[int, bool] = {}
+    for case in combination:
+        truths.update(case)
+    return _decide(condition, truths)
+
+
+def _decide(node: Node, truths: Mapping[int, bool]) -> bool:
+    if node.number in truths:
+        return truths[node.number]
+    if node.literal:
+        return bool(value_of(node))
+    match node.operation, node.operands:
+        case "&", (left, right):
+            return _decide(left, truths) and _decide(right, truths)
+        case "|", (left, right):
+            return _decide(left, truths) or _decide(right, truths)
+        case "not", (inner,):
+            return not _decide(inner, truths)
+        case "select", (condition, then, otherwise):
+            return _decide(then if _decide(condition, truths) else otherwise, truths)
+    raise AssertionError(node.operation)
+
+

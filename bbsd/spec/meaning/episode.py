@@ -1,0 +1,211 @@
+"""What happens in an episode: the start, and one step from decision to end, as one graph.
+
+The phases are those of the language's definition: decide and act from one snapshot, dynamics from the values after the
+actions with the sensors of the snapshot, then new sensors, reward and end. Since every value is a node, what a phase reads is just
+which nodes its names stand for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from bbsd.expression import elaboration
+from bbsd.expression.graph import Kind, Level, Node
+from bbsd.expression.mistakes import Mistake
+from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
+from bbsd.expression.tree import Span
+from bbsd.spec.meaning.behaviors import Module, module
+from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, flat, moment, slots_of
+from bbsd.spec.meaning.partitions import Partition, is_partition
+from bbsd.spec.written import Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Episode:
+    """All that a rollout computes, as nodes.
+
+    `start` and `after` give every slot its first and its next value, `acted` state after the actions; `choices[robot]` is
+    the leaf that stands for the controlling action's number (0: nobody's, else counted over all behaviors in order);
+    `reward[term][robot]`; `definitions` as they are after the step.
+    """
+
+    modules: tuple[Module, ...]
+    start: Mapping[Slot, Node]
+    acted: Mapping[Slot, Node]
+    after: Mapping[Slot, Node]
+    definitions: Mapping[Slot, Node]
+    choices: tuple[Node, ...]
+    reward: Mapping[str, tuple[Node, ...]]
+    ends: Node | None
+
+
+def episode(names: Names) -> Episode | None:
+    """Elaborate a whole spec; None where its behaviors could not be understood."""
+    first = _start(names)
+    beginning = moment(names, first, names.graph.number(0))
+    beginning.scope = replace(beginning.scope, starting=True)
+
+    now = _slots(first, names)
+    decision = _decision(now, beginning, names)
+    kinds = {name: values[0].kind for name, values in first.items()}
+    found = [module(name, each, decision, kinds) for name, each in names.spec.behaviors.items()]
+    modules = tuple(each for each in found if each is not None)
+    choices = tuple(names.graph.leaf("choice", robot, Kind.CELL, Level.LANE) for robot in names.robots)
+
+    acted = _acted(now, modules, choices, names)
+    acting = moment(names, acted, names.step, sensors=decision)
+    then = _dynamics(acted, _after(acting.scope, decision), kinds, names)
+
+    outcome = moment(names, then, names.step)
+    outcome.scope = _after(outcome.scope, decision)
+    meant = Episode(
+        modules,
+        start=_slots_of_state(first, names) | _slots_of_sensors(beginning),
+        acted=_slots_of_state(acted, names),
+        after=_slots_of_state(then, names) | _slots_of_sensors(outcome),
+        definitions=_definitions(outcome),
+        choices=choices,
+        reward=_reward(outcome),
+        ends=_ends(outcome),
+    )
+    return meant if len(modules) == len(found) else None
+
+
+def _after(scope: Scope, decision: Moment) -> Scope:
+    """A scope in which `before(e)` is e as it was for the decision."""
+    return replace(scope, before=decision.scope)
+
+
+def _start(names: Names) -> Stored:
+    """Starting values of world and state, each made when another one or the episode needs it."""
+    environment = names.spec.environment
+    made: dict[tuple[str, int], Node] = {}
+
+    def start(name: str, robot: int) -> Node:
+        if (name, robot) not in made:
+            block, who = ("world", names.team) if name in environment.world else ("state", robot)
+            here = scope.at(("environment", block, name), who, draws=True)
+            made[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, here)
+        return made[name, robot]
+
+    bindings: dict[str, Binding] = {
+        name: Unusable("BB066", f"{name} is not known yet when values start") for name in environment.sensors
+    }
+    bindings |= {name: Deferred(lambda name=name: start(name, 0)) for name in environment.world}  # type: ignore[misc]
+    bindings |= {name: PerRobot(lambda robot, name=name: start(name, robot)) for name in environment.state}  # type: ignore[misc]
+    scope = names.scope(bindings, names.graph.number(0))
+    robots = {name: names.robots for name in environment.state} | {name: range(1) for name in environment.world}
+    return {
+        name: tuple(names.graph.unknown if name in names.unusable else start(name, robot) for robot in robots[name])
+        for name in (*environment.world, *environment.state)
+    }
+
+
+def _slots(stored: Stored, names: Names) -> Stored:
+    world = names.spec.environment.world
+    return {
+        name: tuple(
+            elaboration.one(slots_of(name, None if name in world else robot, value, names.graph))
+            for robot, value in enumerate(values)
+        )
+        for name, values in stored.items()
+    }
+
+
+def _decision(now: Stored, beginning: Moment, names: Names) -> Moment:
+    """The snapshot: state and sensors are read from where the step before, or the start, stored them."""
+    decision = moment(names, now, names.step)
+    for name, written in names.spec.environment.sensors.items():
+        for robot in names.robots if name not in names.unusable else ():
+            if is_partition(written):
+                cells = beginning.partition(name, robot)
+                slot = names.graph.leaf("slot", (name, robot, ()), Kind.CELL, Level.LANE)
+                decision.partitions[name, robot] = None if cells is None else Partition(cells.cells, slot)
+            else:
+                decision.values[name, robot] = slots_of(name, robot, beginning.value(name, robot), names.graph)
+    return decision
+
+
+def _acted(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], names: Names) -> Stored:
+    """State after the controlling actions' assignments; what is not set stays."""
+    graph = names.graph
+    acted = {name: list(values) for name, values in now.items()}
+    every_action = [sets for behavior in modules for sets in behavior.actions.values()]
+    for action, sets in enumerate(every_action, start=1):
+        for target, values in sets.items():
+            for robot, value in enumerate(values):
+                controls = graph.apply("==", choices[robot], graph.cell(action))
+                acted[target][robot] = graph.apply("select", controls, value, acted[target][robot])
+    return {name: tuple(values) for name, values in acted.items()}
+
+
+def _dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Names) -> Stored:
+    """The next state and world, all at once, from the values after the actions and the sensors of the snapshot."""
+    environment = names.spec.environment
+    then = dict(acted)
+    for name, written in environment.dynamics.items():
+        path: Path = ("environment", "dynamics", name)
+        if name in acted:
+            robots = [names.team] if name in environment.world else names.robots
+            then[name] = tuple(_as(kinds[name], written, scope.at(path, robot, draws=True)) for robot in robots)
+        elif name not in names.unusable:
+            message = f"{name} is neither world nor state, so it has no dynamics"
+            names.findings.mistakes[path, Mistake("BB033", message, Span(0, 0))] = None
+    return then
+
+
+def _as(kind: Kind, written: Expression, scope: Scope) -> Node:
+    if kind is Kind.UNKNOWN:
+        return elaboration.scalar(written.tree, scope)
+    return (elaboration.truth if kind is Kind.TRUTH else elaboration.number)(written.tree, scope)
+
+
+def _definitions(outcome: Moment) -> dict[Slot, Node]:
+    """Definitions without parameters, robot by robot; those with parameters are only looked through for mistakes."""
+    names = outcome.names
+    found: dict[Slot, Node] = {}
+    for name, definition in names.definitions.items():
+        for robot in names.robots:
+            unknown = dict.fromkeys(definition.parameters, names.graph.unknown)
+            here = outcome.scope.at(definition.path, robot).binding(unknown)
+            value = elaboration.value(definition.expression, here)
+            found |= {} if definition.parameters else flat(value, name, robot)
+    return found
+
+
+def _reward(outcome: Moment) -> dict[str, tuple[Node, ...]]:
+    return {
+        term: tuple(
+            elaboration.number(written.tree, outcome.scope.at(("reward", term), robot)) for robot in outcome.names.robots
+        )
+        for term, written in outcome.names.spec.reward.items()
+    }
+
+
+def _ends(outcome: Moment) -> Node | None:
+    written = outcome.names.spec.environment.ends
+    path = ("environment", "ends")
+    return None if written is None else elaboration.truth(written.tree, outcome.scope.at(path, outcome.names.team))
+
+
+def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
+    world = names.spec.environment.world
+    return {
+        (name, None if name in world else robot, ()): value
+        for name, values in stored.items()
+        for robot, value in enumerate(values)
+    }
+
+
+def _slots_of_sensors(sensed: Moment) -> dict[Slot, Node]:
+    names = sensed.names
+    found: dict[Slot, Node] = {}
+    for name, written in names.spec.environment.sensors.items():
+        for robot in names.robots if name not in names.unusable else ():
+            if is_partition(written):
+                cells = sensed.partition(name, robot)
+                found |= {} if cells is None else {(name, robot, ()): cells.index}
+            else:
+                found |= flat(sensed.value(name, robot), name, robot)
+    return found

@@ -1,0 +1,65 @@
+"""Settings that change over the generations or the episodes of a lifetime, as numbers for each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from bbsd.expression import elaboration
+from bbsd.expression.graph import Graph, Kind, Level, Node, evaluate
+from bbsd.expression.mistakes import Mistake
+from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared
+from bbsd.expression.tree import Span
+from bbsd.spec.models import Spec
+from bbsd.spec.written import Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Rates:
+    """One number for each generation, or for each episode of a lifetime."""
+
+    hard_mutation: tuple[float, ...]
+    soft_mutation: tuple[float, ...]
+    learning: tuple[float, ...]
+
+
+def rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, Binding]) -> Rates:
+    """Evaluate the rates; each must be a probability everywhere."""
+    generations, episodes = spec.design.coevolution.generations, spec.design.learning.episodes
+    counted = range(1, max(episodes, spec.design.learning.last) + 1)
+    shared = {**constants, "generations": Shared(graph.number(generations)), "episodes": Shared(graph.number(episodes))}
+    generation = graph.leaf("slot", "generation", Kind.NUMBER, Level.CALL)
+    episode = graph.leaf("slot", "episode", Kind.NUMBER, Level.CALL)
+    scope = Scope(graph, {**shared, "generation": Shared(generation)}, findings)
+    written = spec.design.coevolution
+    hard = _node(written.hard_mutation, scope, ("design", "coevolution", "hard_mutation"))
+    scope = Scope(graph, {**scope.names, "hard_mutation": Shared(hard)}, findings)
+    soft = _node(written.soft_mutation, scope, ("design", "coevolution", "soft_mutation"))
+    scope = Scope(graph, {**shared, "episode": Shared(episode)}, findings)
+    rate = _node(spec.design.learning.rate, scope, ("design", "learning", "rate"))
+    every = range(1, generations + 1)
+    return Rates(
+        _probabilities(hard, every, findings, ("design", "coevolution", "hard_mutation"), "generation"),
+        _probabilities(soft, every, findings, ("design", "coevolution", "soft_mutation"), "generation"),
+        _probabilities(rate, counted, findings, ("design", "learning", "rate"), "episode"),
+    )
+
+
+def _node(written: Expression, scope: Scope, path: Path) -> Node:
+    return elaboration.number(written.tree, scope.at(path))
+
+
+def _probabilities(node: Node, counted: range, findings: Findings, path: Path, unit: str) -> tuple[float, ...]:
+    if node.kind is Kind.UNKNOWN:
+        return ()
+    values = tuple(float(evaluate([node], _at(number))[0]) for number in counted)
+    for number, value in zip(counted, values, strict=True):
+        if not 0 <= value <= 1:
+            message = f"this is {value:g} in {unit} {number}; it must be from 0 to 1"
+            findings.mistakes[path, Mistake("BB043", message, Span(0, 0))] = None
+            return ()
+    return values
+
+
+def _at(number: int) -> Callable[[Node, list[object]], float]:
+    return lambda _node, _operands: float(number)

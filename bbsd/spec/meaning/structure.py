@@ -1,0 +1,69 @@
+"""The structure a spec gives: layers of behaviors, and which of them are open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bbsd.errors import did_you_mean
+from bbsd.expression.mistakes import Mistake
+from bbsd.expression.scope import Findings, Path
+from bbsd.expression.tree import Span
+from bbsd.spec.models import OPEN, Spec
+
+OPEN_LAYER = -1
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """Layers from the lowest up (2): a behavior's index, or -1 where open; and the behaviors that may fill the open ones."""
+
+    layers: tuple[int, ...]
+    candidates: tuple[int, ...]
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is anything to learn: with one way to fill the layers there is not."""
+        return OPEN_LAYER in self.layers and len(self.candidates) > 1
+
+
+def structure(spec: Spec, findings: Findings, broken: frozenset[str] = frozenset()) -> Structure:
+    """The layers as given, or as many open ones as `design.layers` says."""
+    behaviors = list(spec.behaviors)
+    everyone = tuple(range(len(behaviors)))
+    if spec.structure is None:
+        layers = spec.design.layers or len(behaviors)
+        if layers > len(behaviors) and not broken:
+            message = f"{layers} layers, but only {len(behaviors)} behaviors, each of which can stand once"
+            _tell(findings, ("design", "layers"), message)
+        return _settled((OPEN_LAYER,) * min(layers, len(behaviors)), everyone)
+    given = [_layer(word, place, spec, findings, broken) for place, word in enumerate(spec.structure)]
+    if not spec.structure:
+        _tell(findings, ("structure",), "a structure without layers; leave the key out to have it learned")
+    candidates = tuple(behavior for behavior in everyone if behavior not in given)
+    if given.count(OPEN_LAYER) > len(candidates) and not broken:
+        _tell(findings, ("structure",), f"{given.count(OPEN_LAYER)} open layers, but {len(candidates)} behaviors to fill them")
+    return _settled(tuple(reversed(given)), candidates)
+
+
+def _settled(layers: tuple[int, ...], candidates: tuple[int, ...]) -> Structure:
+    """One open layer for one behavior is no choice."""
+    if layers.count(OPEN_LAYER) == 1 and len(candidates) == 1:
+        return Structure(tuple(candidates[0] if layer == OPEN_LAYER else layer for layer in layers), ())
+    return Structure(layers, candidates)
+
+
+def _layer(word: str, place: int, spec: Spec, findings: Findings, broken: frozenset[str]) -> int:
+    assert spec.structure is not None
+    if word == OPEN:
+        return OPEN_LAYER
+    if word not in spec.behaviors:
+        if word not in broken:
+            _tell(findings, ("structure", place), f'"{word}" is not a behavior{did_you_mean(word, [*spec.behaviors, OPEN])}')
+        return OPEN_LAYER
+    if word in spec.structure[:place]:
+        _tell(findings, ("structure", place), f"{word} stands in the structure twice")
+    return list(spec.behaviors).index(word)
+
+
+def _tell(findings: Findings, path: Path, message: str) -> None:
+    findings.mistakes[path, Mistake("BB042", message, Span(0, 0))] = None

@@ -1,0 +1,20 @@
+"""YAML in, with the place of everything in its file, and YAML out, in one style."""
+
+from bbsd.text.document import Document
+from bbsd.text.nodes import Data, DataPath
+from bbsd.text.patch import DELETE, Deletion, replace_blocks
+from bbsd.text.reader import read
+from bbsd.text.source import Source
+from bbsd.text.writer import write
+
+__all__ = [
+    "DELETE",
+    "Data",
+    "DataPath",
+    "Deletion",
+    "Document",
+    "Source",
+    "read",
+    "replace_blocks",
+    "write",
+]

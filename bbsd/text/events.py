@@ -1,0 +1,57 @@
+"""The parser's events, reduced to what a tree is made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import yaml
+from yamlcore import CCoreLoader
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+Kind: TypeAlias = Literal["stream", "document", "alias", "scalar", "list", "mapping", "end"]
+
+KINDS: dict[type[yaml.Event], Kind] = {
+    yaml.StreamStartEvent: "stream",
+    yaml.DocumentStartEvent: "document",
+    yaml.AliasEvent: "alias",
+    yaml.ScalarEvent: "scalar",
+    yaml.SequenceStartEvent: "list",
+    yaml.MappingStartEvent: "mapping",
+    yaml.SequenceEndEvent: "end",
+    yaml.MappingEndEvent: "end",
+    yaml.DocumentEndEvent: "end",
+    yaml.StreamEndEvent: "end",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One step of the parser; `text` is a scalar's value, `style` its first character or '' if it is plain."""
+
+    kind: Kind
+    start: int
+    end: int
+    text: str
+    style: str
+    flow: bool
+    anchor: str | None
+    tag: str | None
+
+
+def events(text: str) -> Iterator[Event]:
+    """Yield the events of a text as far as it is YAML; then raises MarkedYAMLError."""
+    for event in yaml.parse(text, Loader=CCoreLoader):
+        start, end = event.start_mark, event.end_mark
+        yield Event(
+            kind=KINDS[type(event)],
+            start=start.index if start else 0,
+            end=end.index if end else 0,
+            text=getattr(event, "value", ""),
+            style=getattr(event, "style", "") or "",
+            flow=bool(getattr(event, "flow_style", False)),
+            anchor=getattr(event, "anchor", None),
+            tag=getattr(event, "tag", None),
+        )

@@ -1,0 +1,95 @@
+"""A YAML document as a tree in which every node knows where it stands in the text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Data: TypeAlias = "dict[str, Data] | list[Data] | str | int | float | bool | None"
+DataPath: TypeAlias = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A single value: its text, as YAML reads the characters from start to end, and what the text means.
+
+    The style is '' for a plain scalar, else the character that begins it; start and end include quotes, anchors
+    and the header of a block scalar.
+    """
+
+    start: int
+    end: int
+    style: str
+    text: str
+    data: str | int | float | bool | None
+
+    @property
+    def is_plain(self) -> bool:
+        """Say whether it stands without quotes; what is left out, as after `key:`, does not count."""
+        return not self.style and self.start < self.end
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """A list; it ends where its last item or its bracket ends, before any comment."""
+
+    start: int
+    end: int
+    flow: bool
+    items: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A key of a mapping and its value."""
+
+    key: Scalar
+    value: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Mapping:
+    """A mapping; it ends where its last value or its brace ends, before any comment."""
+
+    start: int
+    end: int
+    flow: bool
+    entries: dict[str, Entry]
+
+
+@dataclass(frozen=True, slots=True)
+class Alias:
+    """A repetition of a node that was anchored before."""
+
+    start: int
+    end: int
+    target: Scalar | Sequence | Mapping
+
+
+Node: TypeAlias = Scalar | Sequence | Mapping | Alias
+
+
+def data_of(node: Node) -> Data:
+    """Return what a node says as plain data, aliases expanded; no part of it is shared."""
+    match node:
+        case Alias():
+            return data_of(node.target)
+        case Mapping():
+            return {key: data_of(entry.value) for key, entry in node.entries.items()}
+        case Sequence():
+            return [data_of(item) for item in node.items]
+        case Scalar():
+            return node.data
+
+
+def child(node: Node, segment: str | int) -> Node | None:
+    """Return the value of that key or at that index, through an alias too; None if there is none."""
+    match node:
+        case Alias():
+            return child(node.target, segment)
+        case Mapping() if isinstance(segment, str) and segment in node.entries:
+            return node.entries[segment].value
+        case Sequence() if isinstance(segment, int) and 0 <= segment < len(node.items):
+            return node.items[segment]
+        case _:
+            return None

@@ -1,0 +1,70 @@
+"""Where the characters of a value stand in the text of its file."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.text.nodes import Scalar
+
+BLANKS = frozenset(" \t\r\n\x85\u2028\u2029")
+PROPERTIES = r"(?:[&!]\S*\s+)*"
+OPENINGS = {"'": "'", '"': '"', "|": r"\|[^\r\n]*", ">": r">[^\r\n]*"}
+SPELLED_OUT = re.compile(r".", re.DOTALL)
+SPELLINGS = {
+    "'": re.compile(r"''|.", re.DOTALL),
+    '"': re.compile(r"\\(?:x..|u....|U........|.)|.", re.DOTALL),
+}
+ESCAPES = {
+    "0": "\0",
+    "a": "\a",
+    "b": "\b",
+    "e": "\x1b",
+    "f": "\f",
+    "v": "\v",
+    "n": "\n",
+    "r": "\r",
+    "t": "\t",
+}
+ESCAPES |= {"N": "\x85", "_": "\xa0", "L": "\u2028", "P": "\u2029"}
+
+
+def source_offsets(text: str, scalar: Scalar) -> list[int]:
+    """Return where each character of the scalar's text begins in the file's text, and where the value ends.
+
+    YAML drops indentation, folds line breaks and resolves escapes; what is not blank stays in order, so the characters
+    are matched one by one, and blanks are matched to the blanks between them.
+    """
+    pieces = [*_pieces(text, scalar)]
+    offsets, index = [], 0
+    for character in scalar.text:
+        if character not in BLANKS:
+            while index < len(pieces) and pieces[index][1] in BLANKS:
+                index += 1
+        offsets.append(pieces[min(index, len(pieces) - 1)][0])
+        if character not in BLANKS or (index < len(pieces) and pieces[index][1] in BLANKS):
+            index += 1
+    return [*offsets, pieces[min(index, len(pieces) - 1)][0]]
+
+
+def _pieces(text: str, scalar: Scalar) -> Iterator[tuple[int, str]]:
+    """Yield each character that the source spells out, with its offset, and last the end with an empty one."""
+    opening = re.compile(PROPERTIES + OPENINGS.get(scalar.style, "")).match(text, scalar.start)
+    start = opening.end() if opening else scalar.start
+    end = scalar.end - (scalar.style in {"'", '"'})
+    for found in SPELLINGS.get(scalar.style, SPELLED_OUT).finditer(text, start, end):
+        yield found.start(), _spelled(found[0])
+    yield end, ""
+
+
+def _spelled(piece: str) -> str:
+    if len(piece) == 1:
+        return piece
+    if piece == "''":
+        return "'"
+    if piece[1] in "xuU":
+        return chr(int(piece[2:], 16))
+    return ESCAPES.get(piece[1], piece[1])

@@ -1,0 +1,22 @@
+"""From the text of a file to data whose places are known."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.text.document import Document
+
+if TYPE_CHECKING:
+    from bbsd.text.source import Source
+
+
+def read(source: Source) -> Document:
+    """Read a YAML 1.2 text (core schema) as a mapping, with all mistakes that can be found together, in file order.
+
+    Never raises: what is wrong is in the document's diagnoses. Bounds: 50 000 keys and values and 40 levels with aliases
+    expanded, texts of 10 000 characters, numbers of 100.
+    """
+    from bbsd.text.composition import compose  # noqa: PLC0415 - PyYAML is slow to import
+
+    root, diagnoses = compose(source)
+    return Document(source, root, tuple(sorted(diagnoses, key=lambda each: each.place)))

@@ -1,0 +1,99 @@
+"""The text of a file, and where its characters stand."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from bbsd.errors import Diagnosis, Place, SpecError
+
+MAX_BYTES = 1_000_000
+BYTE_ORDER_MARK = "\ufeff"
+LINE_BREAK = re.compile(r"\r\n|\r|\n")
+
+
+@dataclass(frozen=True)
+class Source:
+    """The text of a file, under the name that diagnoses call it by."""
+
+    file: str
+    text: str
+
+    @classmethod
+    def read(cls, path: str | Path) -> Source:
+        """Read a file in UTF-8, with or without a byte order mark.
+
+        Raises SpecError where there is no such file, it is a directory, may not be opened, has more than 1 MB, or
+        is not UTF-8.
+        """
+        file = str(path)
+        return _decoded(file, _content(file))
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *(found.end() for found in LINE_BREAK.finditer(self.text))]
+
+    def line(self, number: int) -> str:
+        """Return the line of that number, counted from 1, without its break; '' if there is none."""
+        if not 1 <= number <= len(self._starts):
+            return ""
+        start = self._starts[number - 1]
+        return self.text[start : self.line_end(start)]
+
+    def line_number(self, offset: int) -> int:
+        """Return the number, counted from 1, of the line that the character at this offset is on."""
+        return bisect_right(self._starts, offset)
+
+    def line_start(self, offset: int) -> int:
+        """Return the offset at which the line of this offset begins."""
+        return self._starts[self.line_number(offset) - 1]
+
+    def line_end(self, offset: int) -> int:
+        """Return the offset of the break that ends the line of this offset, or of the text's end."""
+        number = self.line_number(offset)
+        if number == len(self._starts):
+            return len(self.text)
+        end = self._starts[number] - 1
+        return end - 1 if self.text[end - 1 : end + 1] == "\r\n" else end
+
+    def place(self, start: int, end: int | None = None) -> Place:
+        """Return the place of the characters from `start` up to `end`, as far as they are on one line."""
+        last = start + 1 if end is None else min(end, self.line_end(start))
+        column = start - self.line_start(start) + 1
+        return Place(self.file, self.line_number(start), column, max(1, last - start))
+
+
+def _content(file: str) -> bytes:
+    try:
+        with Path(file).open("rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise _refused(file, "BB001", "there is no such file") from None
+    except IsADirectoryError:
+        raise _refused(file, "BB001", "this is a directory, not a file") from None
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        raise _refused(file, "BB001", f"the file cannot be read: {_reason(error)}") from None
+    if len(content) > MAX_BYTES:
+        raise _refused(file, "BB002", "the file has more than 1 MB, which no spec needs")
+    return content
+
+
+def _reason(error: OSError | ValueError) -> str:
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)
+
+
+def _decoded(file: str, content: bytes) -> Source:
+    try:
+        return Source(file, content.decode("utf-8").removeprefix(BYTE_ORDER_MARK))
+    except UnicodeDecodeError as error:
+        source = Source(file, content.decode("utf-8", "replace").removeprefix(BYTE_ORDER_MARK))
+        place = source.place(len(content[: error.start].decode("utf-8").removeprefix(BYTE_ORDER_MARK)))
+        message = f"the byte 0x{content[error.start]:02x} is not UTF-8"
+        raise SpecError([Diagnosis("BB003", message, place, "save the file as UTF-8")], source) from None
+
+
+def _refused(file: str, code: str, message: str) -> SpecError:
+    return SpecError([Diagnosis(code, message, Place(file, 1, 1))], Source(file, ""))

@@ -1,0 +1,118 @@
+"""Which cell of its partitions a value is in, and what the rules say of each cell of a behavior's table."""
+
+from __future__ import annotations
+
+from itertools import product
+from math import inf
+from typing import TYPE_CHECKING
+
+from bbsd.expression.tree import Call
+from bbsd.kernel.functions import clamp_index
+from bbsd.spec.models import NO_ACTION_TEXT, OPEN, OTHERWISE, When
+from bbsd.spec.written import Expression
+from tests.interpreter.expressions import Moment, Scope, Value, evaluate
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from bbsd.spec.models import Behavior, Spec
+
+OPEN_CELL = 255
+Partition = Expression | dict[str, Expression]
+
+
+def sensed(partition: Partition, place: str, scope_at: Callable[[str, Expression], Scope]) -> Value:
+    """A sensor's value, or the number of the cell it is in; scope_at(place, expression) is what an expression there sees."""
+    if isinstance(partition, dict):
+        return named_cell(partition, place, scope_at)
+    scope = scope_at(place, partition)
+    match partition.tree:
+        case Call(function="cut", arguments=(cut, *bounds)):
+            value = evaluate(cut, scope)
+            return sum([value >= evaluate(bound, scope) for bound in bounds])
+        case Call(function="values", arguments=(whole, first, last)):
+            lowest = evaluate(first, scope)
+            value = evaluate(whole, scope)
+            return clamp_index(value - lowest if lowest else value, int(evaluate(last, scope) - lowest))
+    return evaluate(partition.tree, scope)
+
+
+def named_cell(cells: dict[str, Expression], place: str, scope_at: Callable[[str, Expression], Scope]) -> int:
+    """The first whose condition holds; the last one where none does, whatever its condition is."""
+    *early, _last = cells.items()
+    for number, (label, condition) in enumerate(early):
+        inside = f"{place}.{label}"
+        if evaluate(condition.tree, scope_at(inside, condition)):
+            return number
+    return len(early)
+
+
+def partitions(behavior: Behavior, spec: Spec) -> dict[str, Partition]:
+    """A behavior's own partitions, or the sensors that it lists."""
+    if isinstance(behavior.inputs, dict):
+        return behavior.inputs
+    return {name: spec.environment.sensors[name] for name in behavior.inputs}
+
+
+def labels(partition: Partition, constants: Mapping[str, Value]) -> list[str]:
+    """What the cells of a partition are called."""
+    scope = Scope(Moment(lambda name, _robot: constants[name]), robots=0, robot=0, draw=no_draw)
+    if isinstance(partition, dict):
+        return list(partition)
+    match partition.tree:
+        case Call(function="cut", arguments=(_, *bounds)):
+            at = [written(evaluate(bound, scope)) for bound in bounds]
+            between = [f"{low} to {high}" for low, high in zip(at, at[1:], strict=False)]
+            return [f"below {at[0]}", *between, f"from {at[-1]}"]
+        case Call(function="values", arguments=(_, first, last)):
+            return [str(number) for number in range(int(evaluate(first, scope)), int(evaluate(last, scope)) + 1)]
+    return ["false", "true"]
+
+
+def no_draw(*_: object) -> Value:
+    raise AssertionError("what names a cell cannot be drawn")
+
+
+def written(number: float) -> str:
+    return str(int(number)) if number == int(number) else str(number)
+
+
+def covered(label: str, partition: Partition, constants: Mapping[str, Value]) -> list[int]:
+    """The cells that a rule means by a label: one, or with the words of `cut` a range of them."""
+    names = labels(partition, constants)
+    if label in names:
+        return [names.index(label)]
+    low, high = interval(label)
+    spans = [interval(name) for name in names]
+    return [cell for cell, (start, end) in enumerate(spans) if low <= start and end <= high]
+
+
+def interval(label: str) -> tuple[float, float]:
+    """The numbers that a cell of `cut` covers, by its label."""
+    match label.split():
+        case ["below", high]:
+            return -inf, float(high)
+        case ["from", low]:
+            return float(low), inf
+        case [low, "to", high]:
+            return float(low), float(high)
+    raise AssertionError(label)
+
+
+def given_table(behavior: Behavior, spec: Spec, constants: Mapping[str, Value]) -> list[int]:
+    """What the rules decide in each cell: 0 for no action, the action's number, or OPEN_CELL; the last input changes fastest."""
+    inputs = partitions(behavior, spec)
+    numbers = {NO_ACTION_TEXT: 0, OPEN: OPEN_CELL} | {name: number for number, name in enumerate(behavior.actions, 1)}
+    cells = product(*(range(len(labels(partition, constants))) for partition in inputs.values()))
+    return [numbers[decided(behavior, inputs, cell, constants)] for cell in cells]
+
+
+def decided(behavior: Behavior, inputs: dict[str, Partition], cell: Sequence[int], constants: Mapping[str, Value]) -> str:
+    """What the first rule that matches a cell decides."""
+    at = dict(zip(inputs, cell, strict=True))
+    for rule in behavior.rules or ():
+        if not isinstance(rule, When):
+            return rule.otherwise
+        if all(any(at[name] in covered(label, inputs[name], constants) for label in which) for name, which in rule.when.items()):
+            return rule.do
+    return OPEN

@@ -1,0 +1,239 @@
+"""An episode, step by step and robot after robot, as the language's reference tells it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cache, reduce
+from operator import add
+from typing import TYPE_CHECKING
+
+from bbsd.kernel.functions import divide
+from tests.interpreter.cells import labels, partitions, sensed
+from tests.interpreter.draws import draws_of_episode
+from tests.interpreter.expressions import Definition, Moment, Scope, Value, evaluate
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from bbsd.spec.models import Spec
+    from bbsd.spec.written import Expression
+
+NOBODY = -1
+
+
+@dataclass
+class Step:
+    """What happened in one step: who controlled each robot, its terms, and the values after it."""
+
+    controlling: list[int]
+    terms: list[list[float]]
+    values: dict[str, list[Value]]
+
+
+@dataclass
+class Result:
+    """What an episode brought: credit has one entry for each behavior and a last one for nobody."""
+
+    return_: float
+    credit: list[float]
+    terms: list[float]
+    steps: int = 0
+    trace: list[Step] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Design:
+    """An architecture for a spec: a table for each behavior, and the behaviors of the layers, the lowest first."""
+
+    tables: Sequence[Sequence[int]]
+    structure: Sequence[int]
+
+
+@dataclass(frozen=True)
+class Episode:
+    """What does not change in an episode."""
+
+    spec: Spec
+    constants: Mapping[str, Value]
+    definitions: Mapping[str, Definition]
+    key: int
+
+    @property
+    def robots(self) -> range:
+        return range(self.spec.environment.robots)
+
+    def scope(self, place: str, expression: Expression, robot: int, moment: Moment) -> Scope:
+        """What an expression at a place of the spec sees."""
+        draw = draws_of_episode(place, expression.tree, robot, moment.step, self.key)
+        return Scope(moment, len(self.robots), robot, draw, self.definitions)
+
+    def evaluate(self, place: str, expression: Expression, robot: int, moment: Moment) -> Value:
+        return evaluate(expression.tree, self.scope(place, expression, robot, moment))
+
+    def fixed(self) -> dict[str, Value]:
+        """What is the same for all robots at all times."""
+        return {**self.constants, "robots": float(len(self.robots)), "steps": float(self.spec.environment.steps)}
+
+    def owners(self, name: str) -> Sequence[int]:
+        """For whom a world or state name is evaluated."""
+        return [0] if name in self.spec.environment.world else self.robots
+
+
+def definitions(spec: Spec) -> dict[str, Definition]:
+    """The definitions by name, without what stands in parentheses."""
+    found = {}
+    for head, expression in spec.environment.definitions.items():
+        name, _, parameters = head.replace(" ", "").rstrip(")").partition("(")
+        found[name] = Definition(tuple(parameters.split(",")) if parameters else (), expression.tree)
+    return found
+
+
+def run_episode(
+    spec: Spec, constants: Mapping[str, Value], tables: Sequence[Sequence[int]], structure: Sequence[int], lane_key: int
+) -> Result:
+    """One episode of a design; all that it draws follows from lane_key."""
+    episode = Episode(spec, constants, definitions(spec), lane_key)
+    design = Design(tables, structure)
+    result = Result(0.0, [0.0] * (len(spec.behaviors) + 1), [0.0] * len(spec.reward))
+    moment = start(episode)
+    for step in range(1, spec.environment.steps + 1):
+        snapshot = replace(moment, step=step, before=None)
+        controlling = [controls(episode, design, snapshot, robot) for robot in episode.robots]
+        moment = sense(episode, move(episode, act(episode, design, snapshot, controlling)))
+        terms = [reward_terms(episode, moment, robot) for robot in episode.robots]
+        account(result, controlling, terms)
+        result.steps = step
+        result.trace.append(Step(controlling, terms, seen(episode, moment)))
+        if ended(episode, moment):
+            break
+    return result
+
+
+def start(episode: Episode) -> Moment:
+    """Starting values and sensors, each computed when another first asks for it."""
+    environment, fixed = episode.spec.environment, episode.fixed()
+
+    @cache
+    def value(name: str, robot: int) -> Value:
+        if name in fixed:
+            return fixed[name]
+        if name in environment.world:
+            return episode.evaluate(f"environment.world.{name}", environment.world[name], 0, Moment(value))
+        if name in environment.state:
+            return episode.evaluate(f"environment.state.{name}", environment.state[name], robot, Moment(value))
+        return sensor(episode, name, robot, Moment(value))
+
+    return Moment(value)
+
+
+def sensor(episode: Episode, name: str, robot: int, moment: Moment) -> Value:
+    """What a robot's sensor shows."""
+    return sensed(
+        episode.spec.environment.sensors[name],
+        f"environment.sensors.{name}",
+        lambda place, expression: episode.scope(place, expression, robot, moment),
+    )
+
+
+def controls(episode: Episode, design: Design, snapshot: Moment, robot: int) -> int:
+    """The behavior of the highest layer that is excited and whose cell is not No Action, or NOBODY."""
+    behaviors = list(episode.spec.behaviors.items())
+    for index in reversed(design.structure):
+        name, behavior = behaviors[index]
+        excited = behavior.excited is None or episode.evaluate(f"behaviors.{name}.excited", behavior.excited, robot, snapshot)
+        if excited and decision(episode, design, snapshot, robot, index) != 0:
+            return index
+    return NOBODY
+
+
+def decision(episode: Episode, design: Design, snapshot: Moment, robot: int, index: int) -> int:
+    """What a behavior's table says in the cell that a robot is in."""
+    name, behavior = list(episode.spec.behaviors.items())[index]
+    listed = not isinstance(behavior.inputs, dict)
+    row = 0
+    for given, partition in partitions(behavior, episode.spec).items():
+        cell = (
+            snapshot.value(given, robot)
+            if listed
+            else sensed(partition, f"behaviors.{name}.inputs.{given}", lambda *at: episode.scope(*at, robot, snapshot))
+        )
+        row = row * len(labels(partition, episode.constants)) + int(cell)
+    return design.tables[index][row]
+
+
+def act(
+    episode: Episode, design: Design, snapshot: Moment, controlling: Sequence[int]
+) -> Moment:
+    """The controlling actions, all from the snapshot; what they do not set stays."""
+    assigned = {}
+    for robot, index in zip(episode.robots, controlling, strict=True):
+        if index != NOBODY:
+            name, behavior = list(episode.spec.behaviors.items())[index]
+            number = decision(episode, design, snapshot, robot, index)
+            action, settings = list(behavior.actions.items())[number - 1]
+            for state, expression in settings.items():
+                place = f"behaviors.{name}.actions.{action}.{state}"
+                assigned[state, robot] = episode.evaluate(place, expression, robot, snapshot)
+    return changed(snapshot, assigned, before=snapshot)
+
+
+def move(episode: Episode, moment: Moment) -> Moment:
+    """The dynamics, all at once."""
+    moved = {}
+    for name, expression in episode.spec.environment.dynamics.items():
+        for robot in episode.robots:
+            owner = 0 if name in episode.spec.environment.world else robot
+            moved[name, robot] = episode.evaluate(f"environment.dynamics.{name}", expression, owner, moment)
+    return changed(moment, moved, before=moment.before)
+
+
+def sense(episode: Episode, moment: Moment) -> Moment:
+    """The sensors again, of the values after the dynamics."""
+
+    @cache
+    def value(name: str, robot: int) -> Value:
+        if name in episode.spec.environment.sensors:
+            return sensor(episode, name, robot, replace(moment, value=value))
+        return moment.value(name, robot)
+
+    return replace(moment, value=value)
+
+
+def changed(moment: Moment, values: Mapping[tuple[str, int], Value], before: Moment | None) -> Moment:
+    """A moment with some values replaced."""
+
+    def value(name: str, robot: int) -> Value:
+        return values[name, robot] if (name, robot) in values else moment.value(name, robot)
+
+    return replace(moment, value=value, before=before)
+
+
+def reward_terms(episode: Episode, moment: Moment, robot: int) -> list[float]:
+    return [
+        episode.evaluate(f"reward.{term}", expression, robot, moment)
+        for term, expression in episode.spec.reward.items()
+    ]
+
+
+def account(result: Result, controlling: Sequence[int], terms: Sequence[Sequence[float]]) -> None:
+    """Add a step's reinforcement to the return, to the credit of what controlled, and to the totals of the terms."""
+    n_robots = float(len(terms))
+    shares = [divide(reduce(add, of_robot), n_robots) for of_robot in terms]
+    result.return_ += reduce(add, shares)
+    for index, share in zip(controlling, shares, strict=True):
+        result.credit[index] += share
+    for of_robot in terms:
+        for number, term in enumerate(of_robot):
+            result.terms[number] += divide(term, n_robots)
+
+
+def ended(episode: Episode, moment: Moment) -> bool:
+    ends = episode.spec.environment.ends
+    return ends is not None and episode.evaluate("environment.ends", ends, 0, moment)
+
+
+def seen(episode: Episode, moment: Moment) -> dict[str, list[Value]]:
+    """All values of a moment, for the trace."""
+    environment = episode.spec.environment
+    names = [*environment.world, *environment.state, *environment.sensors]
+    return {name: [moment.value(name, robot) for robot in episode.robots] for name in names}

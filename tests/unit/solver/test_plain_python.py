@@ -1,0 +1,69 @@
+"""The solver's compiled functions give the same bits as plain Python, on keys of all 64 bits."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import bbsd
+from bbsd.solver.culture import Culture, draw_memes
+from bbsd.solver.genetics import OPEN_CELL, next_pool, random_pool
+from bbsd.solver.pairing import members
+from bbsd.solver.settings import Breeding
+from bbsd.solver.structures import (
+    OPEN,
+    candidates_for,
+    random_structures,
+    search_exact,
+    search_sampled,
+    update_values,
+)
+
+KEYS = [0, 3, 2**63 - 1, 2**63, 2**64 - 1]
+
+
+def structures_learned():
+    rng = np.random.default_rng(1)
+    keys = np.concatenate([np.array(KEYS, np.uint64), rng.integers(0, 2**64, 7, dtype=np.uint64)])
+    layers = np.array([OPEN, 4, OPEN, OPEN])
+    candidates = candidates_for(layers, 6)
+    first = random_structures(keys, layers, candidates)
+    values = np.round(rng.normal(size=(12, 4, 6)), 1)  # rounded: with ties
+    sampled = search_sampled(keys, values, first, layers, candidates, 5)
+    exact = search_exact(values, first, layers, candidates)
+    update_values(values, sampled, rng.normal(size=(12, 7)), 0.3)
+    return [first, sampled, exact, values]
+
+
+def pools_bred(key):
+    given_cells = np.array([OPEN_CELL, 1, OPEN_CELL, OPEN_CELL], np.uint8)
+    pool = random_pool(key, 6, given_cells, 3)
+    fitness = np.array([0.0, 2.0, 1.0, -np.inf, 2.0, 1.0])
+    return [
+        pool,
+        next_pool(key, pool, fitness, 3, given_cells, Breeding(hard_mutation=0.4, soft_mutation=0.3)),
+    ]
+
+
+def everything():
+    """Results of all compiled functions, floats as hexadecimal digits."""
+    culture = Culture(np.array([[0, 1], [1, 0], [2, 0]]), np.array([-5.0, -1.0, 5.0]))
+    results = structures_learned()
+    for key in KEYS:
+        results += [*pools_bred(key), members(key, [4, 3], 10), draw_memes(key, culture, 10, 0.7)]
+    return [result.astype("<f8").tobytes().hex() for result in results]
+
+
+def test_compiled_and_plain_results_are_the_same_bits():
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(Path(bbsd.__file__).parents[1])}
+    plain = subprocess.run(
+        [sys.executable, "-W", "error", __file__], env=environment, capture_output=True, text=True, check=True
+    )
+    assert json.loads(plain.stdout) == everything()
+
+
+if __name__ == "__main__":
+    json.dump(everything(), sys.stdout)
