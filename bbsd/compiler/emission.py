@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
-from bbsd.compiler.naming import Namer
 from bbsd.expression.graph import Kind, Level, Node, needed, value_of
 from bbsd.expression.operations import INFIX
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from bbsd.compiler.naming import Namer
 
 PRECEDENCE = {"|": 2, "&": 3, "+": 5, "-": 5, "*": 6}
 LOWEST, COMPARISON, SIGN, ATOM = 0, 1, 7, 9
@@ -84,10 +87,12 @@ class Emitter:
         return text, binds
 
     def _known(self, node: Node) -> str | None:
-        return next((block.names[node.number] for block in self.blocks.values() if node.number in block.names), None)
+        return next(
+            (block.names[node.number] for block in self.blocks.values() if node.number in block.names), None
+        )
 
     def _trivial(self, node: Node) -> bool:
-        return node.operation in ("slot", "constant", "step", "choice")
+        return node.operation in ("slot", "constant", "step", "choice", "start")
 
     def _define(self, node: Node, wanted: str | None) -> str:
         known = self._known(node)
@@ -109,7 +114,10 @@ class Emitter:
         operation, operands, level = node.operation, node.operands, node.level
         if operation in PRECEDENCE:
             own = PRECEDENCE[operation]
-            left, right = (self._operand(operand, level, binds) for operand, binds in zip(operands, (own, own + 1), strict=True))
+            left, right = (
+                self._operand(operand, level, binds)
+                for operand, binds in zip(operands, (own, own + 1), strict=True)
+            )
             return f"{left} {operation} {right}", own
         if operation in INFIX:
             left, right = (self._operand(operand, level, COMPARISON + 1) for operand in operands)
@@ -122,7 +130,9 @@ class Emitter:
             return self._draw(node), ATOM
         if operation == "gather":
             return self._gather(node), ATOM
-        return self._call(operation, [*(self.value(operand, level) for operand in operands), *_data(node)]), ATOM
+        return self._call(
+            operation, [*(self.value(operand, level) for operand in operands), *_data(node)]
+        ), ATOM
 
     def _call(self, function: str, arguments: Iterable[str]) -> str:
         if function not in ("abs", "int"):

@@ -4,12 +4,47 @@ from __future__ import annotations
 
 import keyword
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from bbsd.spec.meaning.names import Slot
+if TYPE_CHECKING:
+    from bbsd.spec.meaning.names import Slot
 
 TAKEN = frozenset(keyword.kwlist) | frozenset(
-    "np int range abs lane lanes base step steps first last keys key individuals words tables origins priorities constants"
-    " returns credit terms control taken odd record running rollout numbers cells fold word_of is_finite".split()
+    [
+        "np",
+        "int",
+        "range",
+        "abs",
+        "lane",
+        "lanes",
+        "base",
+        "step",
+        "steps",
+        "first",
+        "last",
+        "keys",
+        "key",
+        "individuals",
+        "words",
+        "tables",
+        "origins",
+        "priorities",
+        "constants",
+        "returns",
+        "credit",
+        "terms",
+        "control",
+        "taken",
+        "odd",
+        "record",
+        "running",
+        "rollout",
+        "numbers",
+        "cells",
+        "fold",
+        "word_of",
+        "is_finite",
+    ]
 )
 
 

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import lgamma, log
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.source import ACTION_BITS, Detail, module_source, odd_slots
+from bbsd.compiler.deciding import ACTION_BITS
+from bbsd.compiler.frame import Detail
+from bbsd.compiler.merging import merged
+from bbsd.compiler.reckoning import odd_slots
+from bbsd.compiler.source import module_source
 from bbsd.compiler.tables import Pool, TableShape, cells_of, shape_of, words_of
 from bbsd.kernel.modules import load_kernel
-from bbsd.spec.meaning import Meaning
-from bbsd.spec.meaning.names import Slot
 from bbsd.spec.meaning.structure import OPEN_LAYER
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from bbsd.spec.meaning import Meaning
+    from bbsd.spec.meaning.names import Slot
 
 DEFAULT_LANES = 40
 NEVER = -(1 << 40)
@@ -29,7 +36,10 @@ Keys = npt.NDArray[np.uint64]
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """An episode of every agent: returns (n_agents,), and credit (n_agents, n_behaviors + 1), the last column nobody's."""
+    """An episode of every agent: returns (n_agents,).
+
+    And credit (n_agents, n_behaviors + 1), the last column nobody's.
+    """
 
     returns: Floats
     credit: Floats
@@ -125,14 +135,16 @@ class Problem:
 
     def assemble(self, pools: Sequence[Pool], members: Integers, generation: int) -> Team:
         """Agents of individuals from the pools: members (n_agents, n_behaviors)."""
-        return Team(self, tuple(pools), members, np.array(self.meaning.constants.vector(generation), np.float64))
+        return Team(
+            self, tuple(pools), members, np.array(self.meaning.constants.vector(generation), np.float64)
+        )
 
 
 def compile_meaning(meaning: Meaning, *, lanes: int | None = None, compiled: bool = True) -> Problem:
     """Compile a spec's meaning. As plain Python, one lane at a time is the default."""
     structure = meaning.structure
     return Problem(
-        meaning,
+        merged(meaning),
         tuple(shape_of(behavior) for behavior in meaning.episode.modules),
         np.array(structure.layers, np.int64),
         np.array(structure.candidates, np.int64),
@@ -142,9 +154,14 @@ def compile_meaning(meaning: Meaning, *, lanes: int | None = None, compiled: boo
 
 
 class Team:
-    """Agents ready to live: their tables as the kernel reads them. Lanes refer to individuals, they do not copy them."""
+    """Agents ready to live: their tables as the kernel reads them.
 
-    def __init__(self, problem: Problem, pools: tuple[Pool, ...], members: Integers, constants: Floats) -> None:
+    Lanes refer to individuals, they do not copy them.
+    """
+
+    def __init__(
+        self, problem: Problem, pools: tuple[Pool, ...], members: Integers, constants: Floats
+    ) -> None:
         self.problem = problem
         self.size = len(members)
         padded = -(-self.size // problem.lanes) * problem.lanes
@@ -169,11 +186,39 @@ class Team:
         n_behaviors, size = self.problem.n_behaviors, self.size
         returns, taken = self._outputs(1)[0], self._outputs(1)[0]
         credit, control = self._outputs(n_behaviors + 1), self._outputs(n_behaviors + 1)
-        terms, odd = self._outputs(len(self.problem.meaning.episode.reward)), self._outputs(len(self.problem.places))
-        self.problem.rollout_detailed(*self._inputs(keys, structures), returns, credit, terms, control, taken, odd)
-        return DetailedOutcome(
-            returns[:size], credit[:, :size].T, terms[:, :size].T, control[:, :size].T, taken[:size], odd[:, :size].T
+        terms, odd = (
+            self._outputs(len(self.problem.meaning.episode.reward)),
+            self._outputs(len(self.problem.places)),
         )
+        self.problem.rollout_detailed(
+            *self._inputs(keys, structures), returns, credit, terms, control, taken, odd
+        )
+        return DetailedOutcome(
+            returns[:size],
+            credit[:, :size].T,
+            terms[:, :size].T,
+            control[:, :size].T,
+            taken[:size],
+            odd[:, :size].T,
+        )
+
+    def traced_episode(
+        self, rollout: Callable[..., None], key: int, structure: Integers, record: Floats
+    ) -> int:
+        """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken."""
+        n_behaviors, keys = self.problem.n_behaviors, np.array([key], np.uint64)
+        returns, taken = self._outputs(1)[0], self._outputs(1)[0]
+        credit, control = self._outputs(n_behaviors + 1), self._outputs(n_behaviors + 1)
+        terms, odd = (
+            self._outputs(len(self.problem.meaning.episode.reward)),
+            self._outputs(len(self.problem.places)),
+        )
+        first, _, *inputs = self._inputs(
+            np.resize(keys, self.size), np.resize(structure, (self.size, len(structure)))
+        )
+        with np.errstate(all="ignore"):
+            rollout(first, 1, *inputs, returns, credit, terms, control, taken, odd, record)
+        return int(taken[0])
 
     def _outputs(self, rows: int) -> Floats:
         return np.zeros((rows, self._keys.size))
@@ -181,7 +226,15 @@ class Team:
     def _inputs(self, keys: Keys, structures: Integers) -> tuple[object, ...]:
         self._keys[: self.size] = keys
         self._set_priorities(structures)
-        arrays = (self._keys, self._individuals, self._words, self._cells, self._origins, self._priorities, self._constants)
+        arrays = (
+            self._keys,
+            self._individuals,
+            self._words,
+            self._cells,
+            self._origins,
+            self._priorities,
+            self._constants,
+        )
         return 0, self._keys.size, *arrays
 
     def _set_priorities(self, structures: Integers) -> None:
@@ -190,4 +243,6 @@ class Team:
         agents = np.arange(self.size)
         for layer in range(structures.shape[1]):
             behaviors = structures[:, layer]
-            self._priorities[behaviors, agents] = ((layer + 1) << ACTION_BITS) + self._first_actions[behaviors]
+            self._priorities[behaviors, agents] = ((layer + 1) << ACTION_BITS) + self._first_actions[
+                behaviors
+            ]

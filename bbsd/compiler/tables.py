@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log10
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.spec.meaning.behaviors import Module
 from bbsd.spec.meaning.rules import OPEN_CELL
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bbsd.spec.meaning.behaviors import Module
 
 WORD_BITS = 64
 
@@ -70,8 +74,13 @@ def words_of(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> npt.NDArray
     return words
 
 
-def cells_of(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.int64]]:
+def cells_of(
+    shapes: Sequence[TableShape], pools: Sequence[Pool]
+) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.int64]]:
     """The cells of all behaviors that are not packed, one after the other, and where each behavior's begin."""
-    parts = [np.zeros(0, np.uint8) if shape.packed else pool.ravel() for shape, pool in zip(shapes, pools, strict=True)]
+    parts = [
+        np.zeros(0, np.uint8) if shape.packed else pool.ravel()
+        for shape, pool in zip(shapes, pools, strict=True)
+    ]
     ends = np.cumsum([0, *(part.size for part in parts)])
     return np.concatenate([*parts, np.zeros(1, np.uint8)]), ends[:-1].astype(np.int64)

@@ -1,4 +1,4 @@
-"""All kinds of mistakes by their stable codes; each layer that finds mistakes lists its kinds in one module."""
+"""All kinds of mistakes by their stable codes; each layer lists the kinds that it finds in one module."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, order=True)
 class Place:
-    """A stretch of one line of a file; line and column count characters from 1, length is in characters too."""
+    """A stretch of one line of a file; line and column count from 1, columns and length in characters."""
 
     file: str
     line: int
@@ -33,7 +33,7 @@ class Lines(Protocol):
     """What a diagnosis is shown with: the text it speaks of."""
 
     def line(self, number: int) -> str:
-        """Return the line of that number, counted from 1, without its break; an empty text if there is none."""
+        """Return the line of that number, counted from 1, without its break; '' if there is none."""
         ...
 
 

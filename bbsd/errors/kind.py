@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of mistake under its stable code: a few words, why it is one, a text that makes it, the same mended."""
+    """A kind of mistake: its stable code, a few words, why it is one, a text that has it, the same mended."""
 
     code: str
     title: str

@@ -16,7 +16,7 @@ BOLD, RED, BLUE, PLAIN = "\x1b[1m", "\x1b[1;31m", "\x1b[1;34m", "\x1b[0m"
 
 
 def escape(text: str) -> str:
-    """Return the text with all that could steer a terminal or hide (control and format characters) written out."""
+    """Return the text with what steers a terminal or hides (control and format characters) written out."""
     return "".join(_visible(character) for character in text)
 
 
@@ -27,7 +27,7 @@ def _visible(character: str) -> str:
 
 
 def _width(text: str) -> int:
-    """Return the terminal columns of a text, where East Asian wide characters take two and combining ones none."""
+    """Return the columns of a text, of which East Asian wide characters take two and combining ones none."""
     wide = sum(unicodedata.east_asian_width(character) in {"W", "F"} for character in text)
     return len(text) + wide - sum(unicodedata.category(character) in {"Mn", "Me"} for character in text)
 
@@ -37,9 +37,10 @@ def _shown(text: str) -> str:
 
 
 def render_text(diagnosis: Diagnosis, source_line: str, color: bool = False) -> str:
-    """Return the diagnosis as `file:line:column: error[code]: message`, the source line, a caret, and the advice.
+    """Return the diagnosis as `file:line:column: error[code]: message`, source line, caret and advice.
 
-    Without a source line (there is no file, say) only the first line and the advice. No line break at the end.
+    Without a source line (there is no file, say) only the first line and the advice. It ends without a
+    line break.
     """
     place = diagnosis.place
     head = f"{escape(place.file)}:{place.line}:{place.column}: "
@@ -71,7 +72,7 @@ def _colored(text: str, style: str, color: bool) -> str:
 
 
 def render_json(diagnoses: Iterable[Diagnosis]) -> list[dict[str, str | int]]:
-    """Return the diagnoses as objects for JSON: file, line, column, end_column (exclusive), code, message, advice."""
+    """Return objects for JSON: file, line, column, end_column (exclusive), code, message, advice."""
     return [
         {
             "file": each.place.file,

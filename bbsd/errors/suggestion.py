@@ -12,7 +12,7 @@ LONGEST_GUESSED = 100  # difflib is quadratic, and no name is that long
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return `; did you mean "..."?` with the known name nearest to the word, or an empty text if none is near."""
+    """Return `; did you mean "..."?` with the known name nearest to the word, or '' if none is near."""
     if len(word) > LONGEST_GUESSED:
         return ""
     near = get_close_matches(word, list(known), n=1)

@@ -30,9 +30,10 @@ TEXT_KINDS = (
         code="BB004",
         title="not YAML",
         explanation=(
-            "The text breaks YAML's grammar. Often an expression begins with a character that has a meaning in YAML "
-            "(> % @ * & [ { - ! |), holds a colon followed by a blank, or has an index inside {...}: quote it. Otherwise a "
-            "bracket or quote is not closed, a colon is missing, or a line is not indented as its neighbors are."
+            "The text breaks YAML's grammar. Often an expression begins with a character that has a "
+            "meaning in YAML (> % @ * & [ { - ! |), holds a colon followed by a blank, or has an index "
+            "inside {...}: quote it. Otherwise a bracket or quote is not closed, a colon is missing, or"
+            " a line is not indented as its neighbors are."
         ),
         example="excited: [1, 2][mode] > 0",
         mend='excited: "[1, 2][mode] > 0"',
@@ -40,23 +41,31 @@ TEXT_KINDS = (
     Kind(
         code="BB005",
         title="a tab where blanks are expected",
-        explanation="YAML shows what belongs to what by indenting with blanks; tabs have no agreed width and are not allowed.",
+        explanation=(
+            "YAML shows what belongs to what by indenting with blanks; tabs have no agreed width and "
+            "are not allowed."
+        ),
         example="state:\n\theight: 0",
         mend="state:\n  height: 0",
     ),
     Kind(
         code="BB006",
         title="a key given twice",
-        explanation="A mapping has each key once. Which of two was meant cannot be known, so none is silently dropped.",
+        explanation=(
+            "A mapping has each key once. Which of two was meant cannot be known, so none is silently "
+            "dropped."
+        ),
         example="state:\n  speed: 0\n  speed: 1",
         mend="state:\n  speed: 1",
     ),
     Kind(
         code="BB007",
         title="a merge key",
-        explanation="<< was an addition to YAML 1.1; in YAML 1.2, which specs are written in, it has no meaning.",
+        explanation=(
+            "<< was an addition to YAML 1.1; in YAML 1.2, which specs are written in, it has no meaning."
+        ),
         example="fast:\n  <<: *common\n  excited: tilt > 2",
-        mend="fast:\n  inputs: *inputs      # where the other behavior has   inputs: &inputs {...}\n  excited: tilt > 2",
+        mend="fast:\n  inputs: *seen      # where another has   inputs: &seen [...]\n  excited: tilt > 2",
     ),
     Kind(
         code="BB008",
@@ -68,7 +77,10 @@ TEXT_KINDS = (
     Kind(
         code="BB009",
         title="a tag",
-        explanation="YAML's tags (!name) can ask a reader to make objects or run code. A spec is plain data and has none.",
+        explanation=(
+            "YAML's tags (!name) can ask a reader to make objects or run code. A spec is plain data and"
+            " has none."
+        ),
         example="excited: !tilted",
         mend="excited: not tilted",
     ),
@@ -76,16 +88,20 @@ TEXT_KINDS = (
         code="BB010",
         title="an alias without an anchor",
         explanation=(
-            "*name repeats the value that was marked with &name earlier in the file. No value is so marked, or the alias "
-            "stands inside it. If an expression was meant, it cannot begin with an asterisk."
+            "*name repeats the value that was marked with &name earlier in the file. No value is so "
+            "marked, or the alias stands inside it. If an expression was meant, it cannot begin with an"
+            " asterisk."
         ),
         example="inputs: *seen",
-        mend="inputs: &seen [tilted]      # at the first behavior\ninputs: *seen               # at the others",
+        mend="inputs: &seen [tilted]      # at the first behavior\ninputs: *seen      # at the others",
     ),
     Kind(
         code="BB011",
         title="too many values",
-        explanation="A spec may hold 50 000 keys and values, with aliases expanded, so that no small file can exhaust the machine.",
+        explanation=(
+            "A spec may hold 50 000 keys and values, with aliases expanded, so that no small file can "
+            "exhaust the machine."
+        ),
         example="a: &a [x, x, x, x]\nb: &b [*a, *a, *a, *a]\nc: &c [*b, *b, *b, *b]      # and so on",
         mend="Give the value by an expression.",
     ),
@@ -113,28 +129,37 @@ TEXT_KINDS = (
     Kind(
         code="BB015",
         title="several documents",
-        explanation="YAML can hold several documents in one file, separated by ---. A spec is one document.",
+        explanation=(
+            "YAML can hold several documents in one file, separated by ---. A spec is one document."
+        ),
         example="name: one\n---\nname: two",
         mend="name: one      # and the other in its own file",
     ),
     Kind(
         code="BB016",
         title="a comma ends a value",
-        explanation="Inside {...} and [...] YAML takes a comma as the end of a text that is not quoted, even between parentheses.",
+        explanation=(
+            "Inside {...} and [...] YAML takes a comma as the end of a text that is not quoted, even "
+            "between parentheses."
+        ),
         example="actions: {cap: {speed: min(speed, top)}}",
         mend="actions:\n  cap:\n    speed: min(speed, top)",
     ),
     Kind(
         code="BB017",
         title="no blank after a colon",
-        explanation="A key is followed by a colon and a blank. Without the blank YAML reads all of it as one text.",
+        explanation=(
+            "A key is followed by a colon and a blank. Without the blank YAML reads all of it as one text."
+        ),
         example="state:\n  speed:0",
         mend="state:\n  speed: 0",
     ),
     Kind(
         code="BB018",
         title="an empty block of text",
-        explanation="A value that begins with > or | announces a text on the lines below it, and there is none.",
+        explanation=(
+            "A value that begins with > or | announces a text on the lines below it, and there is none."
+        ),
         example="reached: >3",
         mend='reached: ">3"',
     ),

@@ -1,19 +1,24 @@
 """What expressions mean, as a graph of scalar operations in which every distinct value stands once.
 
-Lists, generators, definitions and robots are unrolled while the graph is made, so a node is always one number, one truth
-or one cell index for one robot. Operations on literals are carried out at once, with the functions the kernel uses.
+Lists, generators, definitions and robots are unrolled while the graph is made, so a node is always one
+number, one truth or one cell index for one robot. Operations on literals are
+carried out at once, with the functions that the kernel uses.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Iterable, Mapping
+
 MAX_NODES = 300_000
+MAX_ASKED = 3_000_000
+"""Nodes asked for, the ones that exist already counted again: a bound on the work of making a graph."""
 
 
 class Kind(Enum):
@@ -36,7 +41,7 @@ class Level(IntEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Node:
-    """One value. Nodes are equal when they are the same object; `number` is their order of making, operands first."""
+    """One value, equal to no other node. `number` is their order of making, operands first."""
 
     number: int
     operation: str
@@ -51,7 +56,7 @@ class Node:
         return self.operation == "literal"
 
 
-class GraphTooLarge(Exception):
+class GraphTooLargeError(Exception):
     """A spec that unrolls to more values than are allowed."""
 
 
@@ -60,6 +65,7 @@ class Graph:
     """Makes nodes, each distinct one once."""
 
     nodes: dict[tuple[Hashable, ...], Node] = field(default_factory=dict)
+    asked: int = 0
 
     def number(self, value: float) -> Node:
         """A literal number. Zeros of both signs are different literals."""
@@ -83,11 +89,13 @@ class Graph:
         return self._make(operation, (), data, kind, level)
 
     def draw(self, distribution: str, word: int, operands: tuple[Node, ...]) -> Node:
-        """A draw; `word` names its place in the spec, robot and element, so no two draws are ever the same node."""
+        """A draw; `word` names its place in the spec, robot and element, so no two are ever the same node."""
         kind = Kind.TRUTH if distribution == "chance" else Kind.NUMBER
         return self._make("draw", operands, (distribution, word), kind, Level.LANE)
 
-    def gather(self, base: int, strides: tuple[int, ...], lengths: tuple[int, ...], indices: tuple[Node, ...]) -> Node:
+    def gather(
+        self, base: int, strides: tuple[int, ...], lengths: tuple[int, ...], indices: tuple[Node, ...]
+    ) -> Node:
         """An element of the constants at `base + sum(stride * index)`, each index clamped to its length."""
         return self._make("gather", indices, (base, strides, lengths), Kind.NUMBER, _highest(indices))
 
@@ -130,19 +138,21 @@ class Graph:
             case _:
                 return self.number(value)
 
-    def _make(self, operation: str, operands: tuple[Node, ...], data: Hashable, kind: Kind, level: Level) -> Node:
+    def _make(
+        self, operation: str, operands: tuple[Node, ...], data: Hashable, kind: Kind, level: Level
+    ) -> Node:
         key = (operation, kind, data, *(node.number for node in operands))
+        self.asked += 1
+        if self.asked > MAX_ASKED or len(self.nodes) >= MAX_NODES:
+            raise GraphTooLargeError
         if key not in self.nodes:
-            if len(self.nodes) >= MAX_NODES:
-                raise GraphTooLarge
             self.nodes[key] = Node(len(self.nodes), operation, operands, data, kind, level)
         return self.nodes[key]
 
 
 def value_of(node: Node) -> Any:  # noqa: ANN401 - a number, a truth or a cell index
     """The value of a literal."""
-    assert isinstance(node.data, tuple)
-    return node.data[0]
+    return cast("tuple[Any, ...]", node.data)[0]
 
 
 def _highest(nodes: tuple[Node, ...]) -> Level:
@@ -169,7 +179,6 @@ def compute(operation: str, operands: list[Any], data: Hashable = None) -> Any: 
         return -operands[0]
     if operation == "not":
         return not operands[0]
-    assert operation == "int", operation
     return int(operands[0])
 
 
@@ -214,10 +223,12 @@ def rebuilt(output: Node, graph: Graph, leaf: Callable[[Node, list[Node]], Node]
     return found[output.number]
 
 
-LEAVES = frozenset({"slot", "constant", "step", "draw", "gather", "choice"})
+LEAVES = frozenset({"slot", "constant", "step", "start", "draw", "gather", "choice"})
 
 
-def whole_nodes(outputs: Iterable[Node], whole_slots: Mapping[Hashable, bool], whole_constant: Callable[[Hashable], bool]) -> dict[int, bool]:
+def whole_nodes(
+    outputs: Iterable[Node], whole_slots: Mapping[Hashable, bool], whole_constant: Callable[[Hashable], bool]
+) -> dict[int, bool]:
     """For every node needed, whether it is certainly a whole number, given that for slots and constants."""
     whole: dict[int, bool] = {}
     for node in needed(outputs):
@@ -226,21 +237,24 @@ def whole_nodes(outputs: Iterable[Node], whole_slots: Mapping[Hashable, bool], w
     return whole
 
 
-def _is_whole(node: Node, operands: list[bool], whole_slots: Mapping[Hashable, bool], whole_constant: Callable[[Hashable], bool]) -> bool:
+def _is_whole(
+    node: Node,
+    operands: list[bool],
+    whole_slots: Mapping[Hashable, bool],
+    whole_constant: Callable[[Hashable], bool],
+) -> bool:
     match node.operation:
         case "literal":
             value = value_of(node)
             return not isinstance(value, float) or value.is_integer()
         case "slot":
             return whole_slots.get(node.data, False)
-        case "constant":
-            return whole_constant(node.data)
-        case "gather":
-            assert isinstance(node.data, tuple)
+        case "unknown":
+            return True
+        case "constant" | "gather":
             return whole_constant(node.data)
         case "draw":
-            assert isinstance(node.data, tuple)
-            return node.data[0] == "integers" and all(operands)
+            return cast("tuple[str, int]", node.data)[0] == "integers" and all(operands)
         case "select":
             return all(operands[1:])
         case "step" | "floor" | "ceil" | "round_half_even" | "sign" | "int" | "clamp_index":

@@ -1,14 +1,16 @@
-"""What each operation of a graph does to numbers: the one meaning that folding, plain Python and compiled code share."""
+"""What each operation of a graph does to numbers: the meaning that folding, plain and compiled code share."""
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bbsd.expression.vocabulary import FUNCTIONS
 from bbsd.kernel import functions
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
 
 INFIX: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
     {
@@ -28,7 +30,11 @@ INFIX: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
 """Operations that the kernel's source writes between their operands."""
 
 CALLED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {function.operation: getattr(functions, function.operation) for function in FUNCTIONS.values() if function.operation != "abs"}
+    {
+        function.operation: getattr(functions, function.operation)
+        for function in FUNCTIONS.values()
+        if function.operation != "abs"
+    }
     | {
         "abs": abs,
         "divide": functions.divide,

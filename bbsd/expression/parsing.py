@@ -1,4 +1,4 @@
-"""Text to tree: the part of Python's expression grammar that the language allows, parsed with `ast`, never run."""
+"""Text to tree: the part of Python's expressions that the language allows, read with `ast`, never run."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from bbsd.expression.tree import (
     Truth,
     Unary,
 )
+from bbsd.expression.vocabulary import RESERVED, UNREADABLE
 
 MAX_LENGTH = 4000
 MAX_DEPTH = 40
@@ -67,17 +68,31 @@ REFUSED: dict[type[ast.AST], str] = {
 }
 
 
+WRITTEN: dict[type[ast.operator | ast.unaryop], str] = {
+    ast.BitAnd: "&",
+    ast.BitOr: "|",
+    ast.BitXor: "^",
+    ast.LShift: "<<",
+    ast.RShift: ">>",
+    ast.MatMult: "@",
+    ast.Invert: "~",
+}
+INSTEAD = {"&": "write and", "|": "write or", "~": "write not", "^": "a power is written **"}
+
+
 def parse(text: str) -> Expr:
     """The tree of an expression; spans count characters of `text`.
 
     Raises ExpressionError with the first thing that is not in the grammar.
     """
     if len(text) > MAX_LENGTH:
-        raise _error("BB060", f"an expression of {len(text)} characters; at most {MAX_LENGTH} are allowed", 0, 1)
+        raise _error(
+            "BB060", f"an expression of {len(text)} characters; at most {MAX_LENGTH} are allowed", 0, 1
+        )
     if not text.strip():
         raise _error("BB050", "an expression is missing here", 0, 1)
     for place, character in enumerate(text):
-        if not (character.isascii() and (character.isprintable() or character in "\n\t")):
+        if not (character.isascii() and (character.isprintable() or character in "\n\t")) or character == "#":
             raise _error("BB050", f"the character {character!r} has no meaning in an expression", place, 1)
     flat = re.sub(r"[\n\t]", " ", text)
     stripped = flat.lstrip(" ")
@@ -98,22 +113,31 @@ def _python(text: str, shift: int) -> ast.expr:
 
 def _syntax_error(text: str, shift: int, error: SyntaxError) -> ExpressionError:
     start = min(max((error.offset or 1) - 1, 0), max(len(text) - 1, 0))
-    advice = ""
-    if re.search(r"(?<![<>=!:])=(?!=)", text):
-        advice = "equality is written =="
-    elif "&&" in text or "||" in text or "!" in text.replace("!=", ""):
-        advice = "write and, or, not"
-    elif text.count("(") != text.count(")"):
-        advice = "a parenthesis is open or closed too often"
-    elif "^" in text:
-        advice = "a power is written **"
     what = text[start : start + 12].strip()
-    message = f"this cannot be read as an expression from {what!r} on" if what else "this expression is not complete"
-    return _error("BB050", message, shift + start, max(len(what), 1), advice)
+    message = "this cannot be read as an expression" + (f" from {what!r} on" if start and what else "")
+    return _error("BB050", message, shift + start, max(len(what), 1), _advice(text))
+
+
+def _advice(text: str) -> str:
+    """What is probably wrong with an expression that cannot be read."""
+    words = re.findall(r"\b[a-z]+\b", text)
+    if re.search(r"(?<![<>=!:])=(?!=)", text):
+        return "equality is written =="
+    if "&&" in text or "||" in text or "!" in text.replace("!=", ""):
+        return "write and, or, not"
+    if text.count("(") != text.count(")"):
+        return "a parenthesis is open or closed too often"
+    if words.count("if") != words.count("else"):
+        return "a conditional has three parts: x if ... else y"
+    return next((f"{word} cannot be a name in expressions" for word in words if word in UNREADABLE), "")
 
 
 def _error(code: str, message: str, start: int, length: int, advice: str = "") -> ExpressionError:
     return ExpressionError(Mistake(code, message, Span(start, max(length, 1)), advice))
+
+
+def _is_free(name: str) -> bool:
+    return NAME.match(name) is not None and name not in RESERVED
 
 
 class _Builder:
@@ -131,7 +155,8 @@ class _Builder:
 
     def __call__(self, node: ast.expr, depth: int) -> Expr:
         if depth > MAX_DEPTH:
-            raise self.refuse(node, "BB060", f"nested more than {MAX_DEPTH} deep", "name a part of it as a definition")
+            advice = "name a part of it as a definition"
+            raise self.refuse(node, "BB060", f"nested more than {MAX_DEPTH} deep", advice)
         span, deeper = self.span(node), depth + 1
         match node:
             case ast.Constant(value=value):
@@ -150,23 +175,34 @@ class _Builder:
                 return Logical(symbol, tuple(self(part, deeper) for part in values), span)
             case ast.IfExp(test=test, body=then, orelse=otherwise):
                 return Conditional(self(test, deeper), self(then, deeper), self(otherwise, deeper), span)
-            case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
-                return Call(function, tuple(self.argument(part, deeper) for part in arguments), span)
             case ast.Call():
-                raise self.refuse(node, "BB051", "only functions can be called, with plain arguments")
+                return self.call(node, deeper)
             case ast.Subscript(value=of, slice=index):
                 return Index(self(of, deeper), self(index, deeper), span)
-            case ast.GeneratorExp():
-                raise self.refuse(node, "BB062", "a generator can only be the one argument of an aggregate")
             case _:
-                what = REFUSED.get(type(node), "this")
-                raise self.refuse(node, "BB051", f"the language does not have {what}")
+                raise self.refusal(node)
+
+    def refusal(self, node: ast.expr) -> ExpressionError:
+        if isinstance(node, ast.GeneratorExp):
+            return self.refuse(node, "BB062", "a generator can only be the one argument of an aggregate")
+        if isinstance(node, ast.BinOp | ast.UnaryOp):
+            symbol = WRITTEN.get(type(node.op), "")
+            message, advice = f"the language does not have the operator {symbol}", INSTEAD.get(symbol, "")
+            return self.refuse(node, "BB051", message, advice)
+        return self.refuse(node, "BB051", f"the language does not have {REFUSED.get(type(node), 'this')}")
+
+    def call(self, node: ast.Call, depth: int) -> Call:
+        if not isinstance(node.func, ast.Name) or node.keywords:
+            raise self.refuse(node, "BB051", "only functions can be called, with plain arguments")
+        return Call(node.func.id, tuple(self.argument(part, depth) for part in node.args), self.span(node))
 
     def constant(self, node: ast.expr, value: object) -> Expr:
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            advice = {True: "write true", False: "write false"}.get(value) if isinstance(value, bool) else None
-            what = "text" if isinstance(value, str | bytes) else f"{value!r}"
-            raise self.refuse(node, "BB051", f"the language does not have {what} here", advice or "")
+        if isinstance(value, bool):
+            advice = f"write {str(value).lower()}"
+            raise self.refuse(node, "BB051", f"the language does not have {value}", advice)
+        if not isinstance(value, int | float):
+            what = "text" if isinstance(value, str | bytes) else repr(value)
+            raise self.refuse(node, "BB051", f"the language does not have {what} here")
         try:
             number = float(value)
         except OverflowError:
@@ -179,7 +215,8 @@ class _Builder:
         if name in ("true", "false"):
             return Truth(name == "true", self.span(node))
         if not NAME.match(name):
-            raise self.refuse(node, "BB051", f"{name!r} cannot be a name; names are small letters, digits and _")
+            message = f'"{name}" cannot be a name; names are small letters, digits and _'
+            raise self.refuse(node, "BB051", message)
         return Name(name, self.span(node))
 
     def comparison(self, node: ast.expr, operator: ast.cmpop) -> str:
@@ -194,7 +231,7 @@ class _Builder:
         if more or first.ifs or first.is_async:
             raise self.refuse(node, "BB062", "one for, without if", "use a conditional: x if ... else ...")
         targets = first.target.elts if isinstance(first.target, ast.Tuple) else [first.target]
-        names = tuple(target.id for target in targets if isinstance(target, ast.Name) and NAME.match(target.id))
+        names = tuple(target.id for target in targets if isinstance(target, ast.Name) and _is_free(target.id))
         if len(names) != len(targets) or len(set(names)) != len(names):
             raise self.refuse(first.target, "BB062", "after for stand different names, like x or x, y")
         return Each(self(node.elt, depth + 1), names, self(first.iter, depth + 1), self.span(node))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from bbsd.expression.graph import Graph, Kind, Node, value_of
-from bbsd.expression.scope import Value
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Value
 
 
 def pick(items: tuple[Value, ...], index: Node, graph: Graph) -> Value:

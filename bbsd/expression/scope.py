@@ -1,13 +1,19 @@
-"""Where an expression stands: what its names mean there, which robot it is for, and who hears of its mistakes."""
+"""Where an expression stands: what names mean there, which robot it is for, and who hears of its mistakes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Node
-from bbsd.expression.mistakes import Mistake
-from bbsd.expression.tree import Expr, Span
+from bbsd.expression.graph import Graph, Node, value_of
+from bbsd.expression.mistakes import WHOLE, Mistake, TooManyMistakesError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Mapping
+
+    from bbsd.expression.tree import Expr, Span
+
+MAX_MISTAKES = 500
 
 Path = tuple[str | int, ...]
 """Where something stands in a spec: keys and positions from the top."""
@@ -63,14 +69,22 @@ class Findings:
     """What came to light while expressions were elaborated."""
 
     mistakes: dict[tuple[Path, Mistake], None] = field(default_factory=dict)
-    """In the order of finding, each once though definitions are elaborated many times."""
+    """In the order of finding, each once though most expressions are elaborated for many robots."""
     wholes: list[tuple[Path, Span, str, Node]] = field(default_factory=list)
     """Values that must turn out to be whole numbers, and what for."""
+    entered: tuple[Path, Span] = ((), WHOLE)
+    """The expression that was begun last."""
+
+    def tell(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
+        """Add a mistake; raises TooManyMistakesError when no more are wanted."""
+        self.mistakes[path, Mistake(code, message, span, advice)] = None
+        if len(self.mistakes) >= MAX_MISTAKES:
+            raise TooManyMistakesError
 
 
 @dataclass(frozen=True, slots=True)
 class Draws:
-    """The stream of draws of one expression: its place's name, the number of each draw in it, the elements around it."""
+    """Names the draws of one expression: its place, the number of each draw in it, the elements around it."""
 
     place: str
     ordinals: Mapping[Span, int] = field(default_factory=dict)
@@ -105,11 +119,11 @@ class Scope:
         place = Draws(".".join(str(part) for part in path)) if draws else None
         return replace(self, path=path, robot=robot, draws=place, local={})
 
-    def binding(self, names: Mapping[str, Value]) -> Scope:
-        """The same place with names of a generator in front."""
-        return replace(self, local={**self.local, **names})
+    def known(self, node: Node) -> float | None:
+        """The value of a node, where it is the same for the whole run."""
+        return float(value_of(node)) if node.literal else self.static(node)
 
     def mistake(self, code: str, message: str, span: Span, advice: str = "") -> Node:
         """Tell of a mistake; the value is unknown from then on."""
-        self.findings.mistakes[self.path, Mistake(code, message, span, advice)] = None
+        self.findings.tell(self.path, code, message, span, advice)
         return self.graph.unknown

@@ -17,7 +17,20 @@ from bbsd.expression.tree import (
     Unary,
 )
 
-LEVELS = {"if": 0, "or": 1, "and": 2, "not": 3, "<": 4, "+": 5, "-": 5, "*": 6, "/": 6, "//": 6, "%": 6, "**": 8}
+LEVELS = {
+    "if": 0,
+    "or": 1,
+    "and": 2,
+    "not": 3,
+    "<": 4,
+    "+": 5,
+    "-": 5,
+    "*": 6,
+    "/": 6,
+    "//": 6,
+    "%": 6,
+    "**": 8,
+}
 SIGN, POWER, ATOM = 7, 8, 9
 
 
@@ -36,14 +49,20 @@ def _at_least(expr: Expr, level: int) -> str:
     return text if own >= level else f"({text})"
 
 
-def _render(expr: Expr) -> tuple[str, int]:
+def _atom(expr: Number | Truth | Name) -> str:
     match expr:
         case Number(value=value):
-            return number_text(value), ATOM if value >= 0 else SIGN
+            return number_text(value)
         case Truth(value=value):
-            return str(value).lower(), ATOM
+            return str(value).lower()
         case Name(name=name):
-            return name, ATOM
+            return name
+
+
+def _render(expr: Expr) -> tuple[str, int]:
+    match expr:
+        case Number() | Truth() | Name():
+            return _atom(expr), SIGN if isinstance(expr, Number) and expr.value < 0 else ATOM
         case Unary(operator="not", operand=operand):
             return f"not {_at_least(operand, LEVELS['not'])}", LEVELS["not"]
         case Unary(operator=operator, operand=operand):

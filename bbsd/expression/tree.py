@@ -147,3 +147,9 @@ def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[st
             return names_used(source, hidden) | names_used(element, hidden | frozenset(names))
         case _:
             return frozenset().union(*(names_used(part, hidden) for part in parts(expr)))
+
+
+def frames(expr: Expr) -> int:
+    """How deep Python's stack gets, at most, while an expression is elaborated, names aside."""
+    own = 7 if isinstance(expr, Call) else 4
+    return own + max((frames(part) for part in parts(expr)), default=0)

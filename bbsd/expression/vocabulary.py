@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from keyword import kwlist
 from math import pi
 from typing import NamedTuple
 
@@ -63,12 +64,14 @@ CONSTANTS: dict[str, float] = {"pi": pi}
 SOURCES = ("team", "others", "range")
 PARTITIONS = ("cut", "values")
 CELL_WORDS = ("otherwise", "below", "to", "from", "open", "no", "action", "nobody")
-OPERATORS = ("and", "or", "not", "if", "else", "for", "in", "is", "lambda", "true", "false")
+OPERATORS = ("and", "or", "not", "if", "else", "for", "in", "is", "as", "def", "lambda", "true", "false")
 POSITIONS = ("step", "steps", "robot", "robots", "episode", "episodes", "generation", "generations", "before")
+YAML_WORDS = ("yes", "no", "on", "off", "null")
 
-RESERVED: frozenset[str] = frozenset(
-    (*FUNCTIONS, *AGGREGATES, *DRAWS, *CONSTANTS, *SOURCES, *PARTITIONS, *CELL_WORDS, *OPERATORS, "no", "as", "def")
-    + POSITIONS
-    + ("yes", "off", "on", "null")
+RESERVED: frozenset[str] = frozenset().union(
+    FUNCTIONS, AGGREGATES, DRAWS, CONSTANTS, SOURCES, PARTITIONS, CELL_WORDS, OPERATORS, POSITIONS, YAML_WORDS
 )
 """Words that cannot name anything in a spec."""
+
+UNREADABLE: frozenset[str] = frozenset(kwlist) - RESERVED
+"""Words that can name behaviors and actions, but nothing that an expression uses."""

@@ -1,1 +1,1 @@
-"""What compiles and what is compiled: exact primitives, elementary functions, random streams, generated modules."""
+"""Elementary functions, random streams, and generated modules that are compiled or plain Python."""

@@ -1,4 +1,4 @@
-"""The one place that compiles: how numba is imported, where its cache lies, the options of every compiled function."""
+"""The one place that compiles: how numba is imported, where its cache lies, the options of every function."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CONFIG_FILE = ".numba_config.yaml"
 
 @contextmanager
 def _config_file_unseen() -> Iterator[None]:
-    """Hides numba's configuration file: a folder that the user only looks into must not decide what numba does."""
+    """Hides numba's configuration file: a folder that is only visited must not decide what numba does."""
     seen = os.path.isfile
     vars(os.path)["isfile"] = lambda path: path != CONFIG_FILE and seen(path)
     try:
@@ -35,41 +35,49 @@ with _config_file_unseen():
     import numba
     from numba.core import config
     from numba.core.dispatcher import Dispatcher
-    from numba.extending import register_jitable
+    from numba.extending import overload, register_jitable
 
     from bbsd.kernel import intrinsics
 
 # numba looks for the file again at every compilation; and someone else may have imported numba before.
-vars(config)["_config_fname"] = os.devnull
-config.reload_config()
+SETTINGS = vars(config)
+SETTINGS["_config_fname"] = os.devnull
+SETTINGS["reload_config"]()
 
-OPTIONS = {"error_model": "numpy", "nogil": True}
-LIBRARY_OPTIONS = {
-    "error_model": "numpy",
-    "forceinline": True,
-}  # a call in a loop over lanes would keep it scalar
+OPTIONS: Any = {"error_model": "numpy", "nogil": True}
+# A function that is called and not inlined would keep a loop over lanes scalar.
+LIBRARY_OPTIONS: Any = {"error_model": "numpy", "forceinline": True}
 
-intrinsics.register(**LIBRARY_OPTIONS)
-for _function in functions.COMPILABLE + streams.COMPILABLE:
-    register_jitable(**LIBRARY_OPTIONS)(_function)
+
+def _register() -> None:
+    """Makes the library's functions callable in compiled code."""
+    for primitive, compiled in intrinsics.COMPILED:
+        overload(primitive, jit_options=LIBRARY_OPTIONS, strict=False)(
+            lambda *_types, _compiled=compiled: _compiled
+        )
+    for function in functions.COMPILABLE + streams.COMPILABLE:
+        register_jitable(**LIBRARY_OPTIONS)(function)
+
+
+_register()
 
 
 def jit(function: Function) -> Function:
     """The function, compiled when it is called, with strict floating point, without the GIL, cached on disk.
 
-    numba's cache knows the text of the function's own file; the folder it lies in is named by what else it calls.
+    numba's cache knows the text of the function's own file; its folder is named by all else that counts.
     """
-    kept = config.CACHE_DIR
-    config.CACHE_DIR = str(cache_folder("compiled") / _stamp(function))
+    kept = SETTINGS["CACHE_DIR"]
+    SETTINGS["CACHE_DIR"] = str(cache_folder("compiled") / _stamp(function))
     try:
         compiled: Function = numba.njit(cache=True, **OPTIONS)(function)
     finally:
-        config.CACHE_DIR = kept
+        SETTINGS["CACHE_DIR"] = kept
     return compiled
 
 
 def _stamp(function: Callable[..., Any]) -> str:
-    """A name for all that is compiled into the function: this package, the files of compiled functions, constants."""
+    """A name for all that is compiled into the function: this package, files of callees, constants."""
     known = sha256(kernel_digest().encode())
     for file, numbers in sorted(_compiled_in(function, {}).items()):
         known.update(f"{_text_digest(file)}{numbers}".encode())
@@ -77,7 +85,7 @@ def _stamp(function: Callable[..., Any]) -> str:
 
 
 def _compiled_in(function: Callable[..., Any], found: dict[str, str]) -> dict[str, str]:
-    """The numbers among the globals of the function's file and of every file that its compiled globals come from."""
+    """By file, the numbers among the globals of the function's module and of those its callees come from."""
     names = function.__globals__
     numbers = {name: value for name, value in names.items() if isinstance(value, int | float)}
     found[function.__code__.co_filename] = repr(sorted(numbers.items()))

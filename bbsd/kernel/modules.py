@@ -1,4 +1,4 @@
-"""Generated kernels as modules: written into the user's cache, imported from there, compiled or as plain Python.
+"""Generated kernels as modules: written into the user's cache and imported, compiled or as plain Python.
 
 Nothing here imports numba before something is to be compiled.
 """
@@ -25,7 +25,7 @@ CACHE_VARIABLE = "BBSD_CACHE_DIR"
 
 @cache
 def kernel_digest() -> str:
-    """What names a generation of compiled code: the text of this package and numba's version, as 16 hexadecimal digits."""
+    """What compiled code depends on beside its source: this package's text and numba's version; 16 digits."""
     texts = [path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py"))]
     return sha256(b"\0".join([version("numba").encode(), *texts])).hexdigest()[:16]
 
@@ -33,9 +33,9 @@ def kernel_digest() -> str:
 def cache_folder(name: str) -> Path:
     """The folder of that name in the user's cache, made where it is missing, for the user only (mode 0700).
 
-    The cache is $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache. Where it cannot be written, or others could
-    write it, one notice says so on standard error and a folder that lasts as long as this process, and that its
-    children share, takes its place.
+    The cache is $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache. Where it cannot be written, or
+    others could write it, one notice says so on standard error and a temporary folder takes its place, which
+    lasts as long as this process and serves its children too.
     """
     root = _cache_root()
     if not _usable(root) or not _usable(root / name):
@@ -52,8 +52,8 @@ def cache_folder(name: str) -> Path:
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
     """The module that the source defines, its named functions compiled, or all of it as plain Python.
 
-    The file and the module are called by `name`, an identifier, and a hash of all that decides what the compiled code
-    does; the same source is the same file, and numba finds what it compiled before.
+    The file and the module are called by `name`, an identifier, and a hash of all that decides what the
+    compiled code does: the same source is the same file, and numba finds what it compiled before.
     """
     digest = sha256(f"{kernel_digest()} {functions} {source}".encode()).hexdigest()
     title = f"{name}_{digest[:32]}"
@@ -77,7 +77,7 @@ def _cache_root() -> Path:
 
 @cache
 def _usable(folder: Path) -> bool:
-    """Whether the folder is there, or could be made, and belongs to the user: what lies in a cache is executed."""
+    """Whether the folder, made if need be, is the user's alone to write: what lies in a cache is executed."""
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         folder.mkdir(mode=0o700, exist_ok=True)
@@ -113,7 +113,7 @@ def _import_file(path: Path, module_name: str) -> ModuleType:
 
 
 def _compile(module: ModuleType, functions: tuple[str, ...]) -> None:
-    from bbsd.kernel.jit import jit  # numba takes an eighth of a second to import
+    from bbsd.kernel.jit import jit  # noqa: PLC0415 - numba is slow to import
 
     for function in functions:
         setattr(module, function, jit(getattr(module, function)))

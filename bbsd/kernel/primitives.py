@@ -1,7 +1,7 @@
-"""The operations that everything else is built of: exact, or rounded once as IEEE 754 says, so the same bits on any machine.
+"""The operations that all else is built of: exact, or rounded once as IEEE 754 says, so alike on any machine.
 
-Plain Python here; `kernel.intrinsics` gives compiled code the one machine instruction that does the same. None of them
-raises for a float: where Python would, they return the infinity or NaN that the hardware does.
+Plain Python here; `kernel.intrinsics` gives compiled code the one machine instruction that does the same.
+None of them raises for a float: where Python would, they return the infinity or NaN that the hardware does.
 """
 
 from __future__ import annotations
@@ -16,6 +16,10 @@ INFINITY = math.inf
 NAN = math.nan
 MASK = 0xFFFFFFFFFFFFFFFF
 WHOLE = 2.0**52  # from here on every binary64 number is whole
+
+# x + SHIFT rounds x to a whole number, half to even, which then stands in the lowest bits of the sum.
+SHIFT = 6755399441055744.0  # 1.5 * 2**52
+SHIFT_BITS = 0x4338000000000000
 
 _FLOAT = Struct("<d")
 _SIGNED = Struct("<q")

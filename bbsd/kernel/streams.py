@@ -1,24 +1,30 @@
 """Counter-based random streams: a draw is a pure function of its key and of the word that names it.
 
-A key is folded from what the draw belongs to (seed, generation, agent, episode, purpose), never from how many draws were
-made before, so the result is the same for any number of lanes, workers and any order. The functions are plain Python on
-integers below 2**64; `kernel.jit` makes the same source available to compiled code, where words are uint64.
+A key is folded from what the draw belongs to (seed, generation, agent, episode, purpose), never from how many
+draws were made before, so the result is the same for any number of lanes, workers and any order. The
+functions are plain Python on integers below 2**64; `kernel.jit` makes the same source available to compiled
+code, where words are uint64.
 
-The mixing function is the finalizer of SplitMix64 (Steele, Lea and Flood 2014) with the constants of Stafford's variant 13.
+The mixing function is the finalizer of SplitMix64 (Steele, Lea and Flood 2014), with the constants of
+Stafford's variant 13.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from hashlib import blake2b
 from math import pi
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from bbsd.kernel.functions import cos, floor, log, maximum, minimum, sqrt
 from bbsd.kernel.primitives import MASK, word_of
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
 __all__ = [
     "COMPILABLE",
+    "DISTRIBUTIONS",
     "chance",
     "fold",
     "integers",
@@ -42,7 +48,7 @@ def name_word(name: str) -> int:
 
 
 def mix64(word: int) -> int:
-    """A bijection of 64-bit words in which every input bit changes every output bit with probability near 1/2."""
+    """A bijection of 64-bit words: every input bit changes every output bit with probability near 1/2."""
     word = ((word ^ (word >> 30)) * MULTIPLIER_1) & MASK
     word = ((word ^ (word >> 27)) * MULTIPLIER_2) & MASK
     return word ^ (word >> 31)
@@ -85,6 +91,5 @@ DISTRIBUTIONS: Mapping[str, Callable[..., float]] = MappingProxyType(
     {"chance": chance, "integers": integers, "normal": normal, "uniform": uniform}
 )
 """What the language draws, by its name there: functions of (key, word, *parameters)."""
-
 
 COMPILABLE = (mix64, fold, unit, uniform, integers, chance, normal)

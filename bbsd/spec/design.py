@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from bbsd.spec.base import Part
-from bbsd.spec.written import Expression, ExpressionText, expression
+from bbsd.spec.written import Expression, ExpressionText, Whole, expression, shape
 
 HARD_MUTATION = "0.01 / log2(generation + 1) if generation <= 0.8 * generations else 0"
 
@@ -19,15 +19,18 @@ def _default(text: str) -> Expression:
 class Coevolution(Part):
     """Cooperative co-evolution of the behaviors (V.B)."""
 
-    generations: int = Field(50, ge=1, le=1_000_000, description="Generations of a run.")
-    population: int = Field(20, ge=1, le=100_000, description="Individuals in each behavior's pool.")
-    agents: int = Field(200, ge=1, le=1_000_000, description="Agents put together in each generation.")
-    tournament: int = Field(3, ge=1, le=1000, description="Individuals that compete to be a parent.")
-    elites: int = Field(1, ge=0, description="Best individuals copied unchanged into the next generation.")
-    crossover: float = Field(0.5, ge=0, le=1, description="Probability p_c that a cell comes from the first parent (19).")
+    generations: Whole = Field(50, ge=1, le=1_000_000, description="Generations of a run.")
+    population: Whole = Field(20, ge=1, le=100_000, description="Individuals in each behavior's pool.")
+    agents: Whole = Field(200, ge=1, le=1_000_000, description="Agents put together in each generation.")
+    tournament: Whole = Field(3, ge=1, le=1000, description="Individuals that compete to be a parent.")
+    elites: Whole = Field(1, ge=0, description="Best individuals copied unchanged into the next generation.")
+    crossover: float = Field(
+        0.5, ge=0, le=1, description="Probability p_c that a cell comes from the first parent (19)."
+    )
     hard_mutation: ExpressionText = Field(
         _default(HARD_MUTATION),
-        description="Probability that a child's table is replaced by a random one; may use generation, generations.",
+        description="Probability that a child's table is replaced by a random one; "
+        "may use generation, generations.",
     )
     soft_mutation: ExpressionText = Field(
         _default("2 * hard_mutation"),
@@ -38,43 +41,69 @@ class Coevolution(Part):
 class Learning(Part):
     """Learning of the structure during a lifetime (V.A)."""
 
-    episodes: int = Field(25, ge=1, le=1_000_000, description="Episodes of a lifetime in which a structure is learned.")
-    last: int = Field(
+    episodes: Whole = Field(
+        25, ge=1, le=1_000_000, description="Episodes of a lifetime in which a structure is learned."
+    )
+    last: Whole = Field(
         5,
         ge=1,
         le=1_000_000,
-        description="K of (14): fitness is the mean return of so many last episodes; the whole lifetime where the structure is given.",
+        description="K of (14): fitness is the mean return of so many last episodes; "
+        "of the whole lifetime where the structure is given.",
     )
-    rate: ExpressionText = Field(_default("0.1 * 0.99 ** episode"), description="Learning rate of (13); may use episode, episodes.")
+    rate: ExpressionText = Field(
+        _default("0.1 * 0.99 ** episode"), description="Learning rate of (13); may use episode, episodes."
+    )
     search: Literal["sampled", "exact"] = Field(
-        "sampled", description="How a structure is chosen before an episode: among random ones, or as an assignment problem."
+        "sampled",
+        description="How a structure is chosen before an episode: among random ones, or exactly.",
     )
-    candidates: int = Field(20, ge=1, le=100_000, description="Random structures that compete with the present one.")
+    candidates: Whole = Field(
+        20, ge=1, le=100_000, description="Random structures that compete with the present one."
+    )
 
 
 class CultureSettings(Part):
     """The culture of memes (V.C)."""
 
-    size: int = Field(5, ge=1, le=10_000, description="Memes that the culture holds.")
+    size: Whole = Field(5, ge=1, le=10_000, description="Memes that the culture holds.")
     rate: float = Field(0.3, ge=0, le=1, description="Forgetting factor of a meme's fitness (22).")
-    scaled: float = Field(0.9, ge=0, le=1, description="Probability that a meme is drawn by scaled roulette instead of at random.")
+    scaled: float = Field(
+        0.9,
+        ge=0,
+        le=1,
+        description="Probability that a meme is drawn by scaled roulette instead of at random.",
+    )
 
 
 class Answer(Part):
     """The final race between candidates."""
 
-    candidates: int = Field(32, ge=1, le=1000, description="Different behaviors that enter the race.")
-    episodes: int = Field(20_000, ge=100, le=10_000_000, description="Fresh episodes at most for each of them.")
-    judged: int = Field(5_000, ge=100, le=10_000_000, description="Further episodes on which the winner is judged.")
+    candidates: Whole = Field(32, ge=1, le=1000, description="Different behaviors that enter the race.")
+    episodes: Whole = Field(
+        20_000, ge=100, le=10_000_000, description="Fresh episodes at most for each of them."
+    )
+    judged: Whole = Field(
+        5_000, ge=100, le=10_000_000, description="Further episodes on which the winner is judged."
+    )
 
 
 class Design(Part):
     """How the holes of a spec are filled."""
 
-    layers: int | None = Field(None, ge=1, le=64, description="Open layers where no structure is given; by default one for each behavior.")
-    sharing: Literal["uniform", "value"] = Field("uniform", description="How agents' fitness is shared: (15) or (17).")
+    layers: Whole | None = Field(
+        None,
+        ge=1,
+        le=64,
+        description="Open layers where no structure is given; by default one for each behavior.",
+    )
+    sharing: Literal["uniform", "value"] = Field(
+        "uniform", description="How agents' fitness is shared: (15) or (17)."
+    )
     coevolution: Coevolution = Field(Coevolution(), description="Cooperative co-evolution of the behaviors.")
     learning: Learning = Field(Learning(), description="Learning of the structure.")
-    culture: CultureSettings | Literal["none"] = Field(CultureSettings(), description="The culture of memes, or none.")
+    culture: Annotated[
+        Annotated[CultureSettings, Tag("<mapping>")] | Annotated[Literal["none"], Tag("<other>")],
+        Discriminator(shape),
+    ] = Field(CultureSettings(), description="The culture of memes, or none.")
     answer: Answer = Field(Answer(), description="The choice of the final answer.")
-

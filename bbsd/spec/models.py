@@ -4,12 +4,22 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
-from pydantic_core import PydanticCustomError
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from bbsd.spec.base import Part
+from bbsd.spec.base import Block, Part
 from bbsd.spec.design import Design
-from bbsd.spec.written import CellText, Expression, ExpressionText, NameText, expression, kind_of
+from bbsd.spec.written import (
+    CellText,
+    Expression,
+    ExpressionText,
+    NameText,
+    ValueNameText,
+    Whole,
+    expression,
+    kind_of,
+    shape,
+)
 
 OPEN = "open"
 NO_ACTION_TEXT = "no action"
@@ -20,49 +30,67 @@ ConstantValue = Expression | tuple["ConstantValue", ...]
 
 
 def _constant(value: object) -> ConstantValue:
+    errors: list[InitErrorDetails] = []
+    found = _table(value, (), errors)
+    if errors:
+        raise ValidationError.from_exception_data("constant", errors)
+    return found
+
+
+def _table(value: object, at: tuple[int, ...], errors: list[InitErrorDetails]) -> ConstantValue:
+    """An expression or a nested list of them; mistakes are collected with their place in it."""
     if isinstance(value, list | tuple):
-        return tuple(_constant(item) for item in value)
-    return expression(value)
+        return tuple(_table(item, (*at, place), errors) for place, item in enumerate(value))
+    try:
+        return expression(value)
+    except PydanticCustomError as error:
+        errors.append(InitErrorDetails(type=error, loc=at, input=value))
+        return ()
 
 
-
-
-NamedCells = dict[CellText, ExpressionText]
+NamedCells = Block[CellText, ExpressionText]
 """Named cells: the first condition that holds; `otherwise` as the last one's condition."""
 
-PartitionText = ExpressionText | NamedCells
+PartitionText = Annotated[
+    Annotated[ExpressionText, Tag("<other>")] | Annotated[NamedCells, Tag("<mapping>")], Discriminator(shape)
+]
 """A condition, cut(...), values(...), or named cells."""
-
-
-def _partition(value: object) -> object:
-    if isinstance(value, dict):
-        return value
-    return expression(value)
 
 
 class Environment(Part):
     """The world, the robots in it, and what they sense."""
 
-    robots: int = Field(1, ge=1, le=64, description="Robots that carry the architecture.")
-    steps: int = Field(ge=1, le=10_000_000, description="Steps of an episode at most.")
-    world: dict[NameText, ExpressionText] = Field({}, description="Values the team has once: name and starting value.")
-    state: dict[NameText, ExpressionText] = Field({}, description="Values each robot has: name and starting value.")
-    definitions: dict[str, ExpressionText] = Field({}, description="Names for expressions, with or without parameters.")
-    dynamics: dict[NameText, ExpressionText] = Field({}, description="The next value of world and state names; others stay.")
-    sensors: dict[NameText, Annotated[PartitionText, BeforeValidator(_partition)]] = Field(
+    robots: Whole = Field(1, ge=1, le=64, description="Robots that carry the architecture.")
+    steps: Whole = Field(ge=1, le=10_000_000, description="Steps of an episode at most.")
+    world: Block[ValueNameText, ExpressionText] = Field(
+        {}, description="Values the team has once: name and starting value."
+    )
+    state: Block[ValueNameText, ExpressionText] = Field(
+        {}, description="Values each robot has: name and starting value."
+    )
+    definitions: Block[str, ExpressionText] = Field(
+        {}, description="Names for expressions, with or without parameters."
+    )
+    dynamics: Block[ValueNameText, ExpressionText] = Field(
+        {}, description="The next value of world and state names; others stay."
+    )
+    sensors: Block[ValueNameText, PartitionText] = Field(
         {}, description="What a robot senses: an expression, or a partition that behaviors share."
     )
-    ends: ExpressionText | None = Field(None, description="The episode is over after a step in which this holds.")
-
-
-Decision = Annotated[str, BeforeValidator(lambda value: _decision(value))]
-"""An action's name, `no action`, or `open`."""
+    ends: ExpressionText | None = Field(
+        None, description="The episode is over after a step in which this holds."
+    )
 
 
 def _decision(value: object) -> str:
     if not isinstance(value, str):
-        raise PydanticCustomError("not_a_decision", "an action, no action or open is needed here, not {what}", {"what": kind_of(value)})
+        message = "an action, no action or open is needed here, not {what}"
+        raise PydanticCustomError("not_a_decision", message, {"what": kind_of(value)})
     return " ".join(value.split())
+
+
+Decision = Annotated[str, BeforeValidator(_decision)]
+"""An action's name, `no action`, or `open`."""
 
 
 def _cells(value: object) -> object:
@@ -72,7 +100,7 @@ def _cells(value: object) -> object:
 class When(Part):
     """A rule for some cells: what to do where every named input is in one of the cells given."""
 
-    when: dict[str, Annotated[list[CellText], BeforeValidator(_cells), Field(min_length=1)]] = Field(
+    when: Block[str, Annotated[list[CellText], BeforeValidator(_cells), Field(min_length=1)]] = Field(
         description="For each named input, its cell or cells; an input not named matches all."
     )
     do: Decision = Field(description="An action, no action, or open.")
@@ -84,26 +112,37 @@ class Otherwise(Part):
     otherwise: Decision = Field(description="An action, no action, or open.")
 
 
+def _kind_of_rule(value: object) -> str:
+    is_last = isinstance(value, Otherwise) or (isinstance(value, dict) and "otherwise" in value)
+    return "<otherwise>" if is_last else "<when>"
+
+
 Rule = When | Otherwise
-
-
-def _rule(value: object) -> Any:  # noqa: ANN401 - what pydantic is to read on
-    if isinstance(value, Part):
-        return value
-    if not isinstance(value, dict):
-        raise PydanticCustomError("not_a_rule", "a rule is needed here (when and do, or otherwise), not {what}", {"what": kind_of(value)})
-    return (Otherwise if "otherwise" in value and "when" not in value else When).model_validate(value)
+RuleText = Annotated[
+    Annotated[When, Tag("<when>")] | Annotated[Otherwise, Tag("<otherwise>")], Discriminator(_kind_of_rule)
+]
 
 
 class Behavior(Part):
     """A behavior module (1): what it sees, when it is excited, what it may do, and what it does."""
 
-    excited: ExpressionText | None = Field(None, description="Where the behavior is excited; by default always.")
-    inputs: dict[NameText, Annotated[PartitionText, BeforeValidator(_partition)]] | list[str] = Field(
-        {}, description="Its own partitions, or the names of sensors that are partitions; none: a table of one cell."
+    excited: ExpressionText | None = Field(
+        None, description="Where the behavior is excited; by default always."
     )
-    actions: dict[NameText, dict[str, ExpressionText]] = Field(description="For each action, the state it sets and the value.")
-    rules: list[Annotated[Rule, BeforeValidator(_rule)]] | None = Field(None, description="What to do where; the first match decides. None: all open.")
+    inputs: Annotated[
+        Annotated[list[str], Tag("<other>")]
+        | Annotated[Block[ValueNameText, PartitionText], Tag("<mapping>")],
+        Discriminator(shape),
+    ] = Field(
+        {},
+        description="Its own partitions, or the names of sensors that are; none: a table of one cell.",
+    )
+    actions: Block[NameText, Block[str, ExpressionText]] = Field(
+        description="For each action, the state it sets and the value."
+    )
+    rules: list[RuleText] | None = Field(
+        None, description="What to do where; the first match decides. None: all open."
+    )
 
 
 class Spec(Part):
@@ -112,9 +151,15 @@ class Spec(Part):
     bbsd: Literal[1] = Field(description="Version of the language.")
     name: str = Field(min_length=1, max_length=100, description="What the design is called.")
     summary: str = Field("", description="One sentence about it.")
-    constants: dict[NameText, Annotated[Any, BeforeValidator(_constant)]] = Field({}, description="Numbers, lists and tables that do not change in a run.")
+    constants: Block[ValueNameText, Annotated[Any, BeforeValidator(_constant)]] = Field(
+        {}, description="Numbers, lists and tables that do not change in a run."
+    )
     environment: Environment = Field(description="The world, the robots, and what they sense.")
-    behaviors: dict[NameText, Behavior] = Field(min_length=1, description="The behavior modules.")
-    structure: list[str] | None = Field(None, description="Behaviors from the highest layer down, or open; none: to be learned.")
-    reward: dict[NameText, ExpressionText] = Field(min_length=1, description="The terms of the reinforcement, summed at each step.")
+    behaviors: Block[NameText, Behavior] = Field(min_length=1, description="The behavior modules.")
+    structure: list[str] | None = Field(
+        None, description="Behaviors from the highest layer down, or open; none: to be learned."
+    )
+    reward: Block[NameText, ExpressionText] = Field(
+        min_length=1, description="The terms of the reinforcement, summed at each step."
+    )
     design: Design = Field(Design(), description="How the holes are filled.")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from math import isfinite
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, GetPydanticSchema
 from pydantic_core import PydanticCustomError, core_schema
@@ -11,8 +12,12 @@ from pydantic_core import PydanticCustomError, core_schema
 from bbsd.expression.mistakes import ExpressionError
 from bbsd.expression.parsing import NAME, parse
 from bbsd.expression.text import number_text
-from bbsd.expression.tree import Expr
-from bbsd.expression.vocabulary import RESERVED
+from bbsd.expression.vocabulary import RESERVED, UNREADABLE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bbsd.expression.tree import Expr
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +40,13 @@ def expression(value: object) -> Expression:
         return value
     text = scalar_text(value)
     if text is None:
-        raise PydanticCustomError("not_an_expression", "an expression is needed here, not {what}", {"what": kind_of(value)})
+        message = "an expression is needed here, not {what}"
+        raise PydanticCustomError("not_an_expression", message, {"what": kind_of(value)})
     try:
         return Expression(text, parse(text))
     except ExpressionError as error:
-        raise PydanticCustomError("expression", "{message}", {"message": str(error), "mistake": error.mistake}) from None
+        context = {"message": str(error), "mistake": error.mistake}
+        raise PydanticCustomError("expression", "{message}", context) from None
 
 
 def scalar_text(value: object) -> str | None:
@@ -49,7 +56,7 @@ def scalar_text(value: object) -> str | None:
             return value
         case bool():
             return "true" if value else "false"
-        case int() | float():
+        case int() | float() if isfinite(value):
             return number_text(value)
     return None
 
@@ -67,26 +74,57 @@ def kind_of(value: object) -> str:
             return "text"
         case bool():
             return "a truth"
+        case float() if not isfinite(value):
+            return "infinity or NaN"
     return "a number"
+
+
+def is_name(text: str) -> bool:
+    """Whether a text can name something in a spec."""
+    return NAME.match(text) is not None and text not in RESERVED
+
+
+def is_value_name(text: str) -> bool:
+    """Whether a text can name something that expressions use."""
+    return is_name(text) and text not in UNREADABLE
+
+
+def shape(value: object) -> str:
+    """Tag a value that is written in one of two ways; no key of a spec looks like a tag."""
+    return "<other>" if isinstance(value, str | int | float | list) or value is None else "<mapping>"
 
 
 def name(value: str) -> str:
     """A name of the spec's own."""
-    if value in RESERVED:
-        raise PydanticCustomError("reserved_name", '"{name}" is a word of the language and cannot be a name', {"name": value})
+    return _checked_name(value, is_name)
+
+
+def value_name(value: str) -> str:
+    """A name of the spec's own that expressions can use."""
+    return _checked_name(value, is_value_name)
+
+
+def _checked_name(value: str, is_right: Callable[[str], bool]) -> str:
+    if is_right(value):
+        return value
+    reason = "is a word of the language and cannot be a name"
     if not NAME.match(value):
-        raise PydanticCustomError(
-            "bad_name", '"{name}" cannot be a name; names are small letters, digits and _, a letter first', {"name": value}
-        )
-    return value
+        reason = "cannot be a name; names are small letters, digits and _, a letter first"
+    raise PydanticCustomError("bad_name", '"{name}" {reason}', {"name": value, "reason": reason})
 
 
 def cell(value: object) -> str:
     """The label of a cell, as written or as YAML made of it."""
     text = scalar_text(value)
     if text is None:
-        raise PydanticCustomError("not_a_cell", "a cell's name is needed here, not {what}", {"what": kind_of(value)})
+        raise PydanticCustomError(
+            "not_a_cell", "a cell's name is needed here, not {what}", {"what": kind_of(value)}
+        )
     return " ".join(text.split())
+
+
+def _whole(value: object) -> object:
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def _from_python(function: Any) -> Any:  # noqa: ANN401 - pydantic's own types
@@ -99,5 +137,11 @@ ExpressionText = Annotated[Expression, _from_python(expression)]
 NameText = Annotated[str, AfterValidator(name)]
 """A name that is not a word of the language."""
 
+ValueNameText = Annotated[str, AfterValidator(value_name)]
+"""A name that expressions can use."""
+
 CellText = Annotated[str, BeforeValidator(cell)]
 """A cell's label."""
+
+Whole = Annotated[int, BeforeValidator(_whole)]
+"""A whole number, also one that is written 300.0."""

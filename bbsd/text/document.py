@@ -32,25 +32,28 @@ class Document:
         return data if isinstance(data, dict) else {}
 
     def place(
-        self, path: DataPath, offset: int | None = None, on_key: bool = False, length: int | None = None
+        self, path: DataPath, offset: int | None = None, on_key: bool = False, length: int = 1
     ) -> Place:
         """Return the place of the value at a path of keys and indices, or of its key.
 
-        Segments that name nothing are skipped, as the names of unions that a schema reports; where the last one names
-        nothing, or there is no value written, it is the key of what was found. With an offset it is the place of that
-        character of the value's (or key's) text, wherever folding, quotes and escapes put it. The length is in
-        characters of that text; by default all of it, with an offset 1. Values over several lines are marked in the first.
+        Segments that name nothing are skipped, such as the names of unions in a schema's reports; where
+        the last one names nothing, or no value is written, it is the key of what was found. With an
+        offset it is the place of that character of the value's (or key's) text, wherever folding, quotes
+        and escapes put it. The place of a single value without an offset has all of it on its first line.
         """
         if self.root is None:
             return self.source.place(0)
         key, node, is_found = _find(self.root, path)
-        marked = key if on_key or not is_found or _is_unwritten(node) else node
-        scalar = marked.target if isinstance(marked, Alias) and offset is not None else marked
-        if isinstance(scalar, Scalar) and (offset is not None or length is not None):
-            return self._inside(scalar, offset or 0, length or 1)
-        if isinstance(marked, Scalar | Alias):
-            return self.source.place(marked.start, marked.end)
-        return self.source.place(marked.start)
+        if not on_key and (not is_found or (isinstance(node, Scalar) and node.is_unwritten)):
+            return self._whole(key)
+        marked = key if on_key else node
+        scalar = marked.target if isinstance(marked, Alias) else marked
+        if offset is None or not isinstance(scalar, Scalar):
+            return self._whole(marked)
+        return self._inside(scalar, offset, length)
+
+    def _whole(self, node: Node) -> Place:
+        return self.source.place(node.start, node.end if isinstance(node, Scalar | Alias) else None)
 
     def _inside(self, scalar: Scalar, offset: int, length: int) -> Place:
         offsets = source_offsets(self.source.text, scalar)
@@ -78,7 +81,3 @@ def _find(root: Mapping, path: Iterable[str | int]) -> tuple[Node, Node, bool]:
 def _key(node: Node, segment: str | int) -> Node | None:
     mapping = node.target if isinstance(node, Alias) else node
     return mapping.entries[str(segment)].key if isinstance(mapping, Mapping) else None
-
-
-def _is_unwritten(node: Node) -> bool:
-    return isinstance(node, Scalar) and not node.style and node.start == node.end

@@ -1,6 +1,7 @@
 """Edits of a YAML text that touch one entry and leave the rest of the file as it is, byte for byte.
 
-Each returns the new text, or None where it has no way to do it. None is sure of its result: `patch` reads it again.
+Each returns the new text, or None where it has no way to do it. The text is a proposal: `patch` reads it
+again.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 COLON = re.compile(r"[ \t]*:")
 COMMENT_LINE = re.compile(r"(?:[ \t]*(?:\r\n|\r|\n))+( *)#[^\r\n]*")
 BLANK_LINE = re.compile(r"(?:\r\n|\r|\n)[ \t]*(?:\r\n|\r|\n)")
+AFTER_BLANK_LINE = re.compile(r"(?:\r\n|\r|\n)[ \t]*(?:\r\n|\r|\n)\Z")
 LINE_BREAK = re.compile(r"\r\n|\r|\n")
 
 
@@ -31,33 +33,49 @@ def replaced_entry(source: Source, parent: Mapping, key: str, value: Data) -> st
     return _replaced_in_block(source, entry, key, value, colon.end()) if colon else None
 
 
-def _replaced_in_block(source: Source, entry: Entry, key: str, value: Data, after_colon: int) -> str:
-    text, node, indent = source.text, entry.value, _column(source, entry.key.start)
-    first, *rest = _like(node, value, source, after_colon) or value_lines(
-        value, indent, after_colon + 1 - source.line_start(after_colon), key
-    )
-    last = written_end(source, node)
-    tail = text[last : source.line_end(last)]  # a comment behind the value
-    is_below = source.line_number(node.start) > source.line_number(after_colon)
+def _replaced_in_block(source: Source, entry: Entry, key: str, value: Data, head_end: int) -> str:
+    node, indent = entry.value, _column(source, entry.key.start)
+    flow = _like(node, value, source, head_end)
+    first, *rest = flow or value_lines(value, indent, _column(source, head_end) + 1, key)
     below = _joined(source, rest, indent)
-    if is_below and not first:
-        above = text[after_colon : source.line_start(node.start)]
-        return text[:after_colon] + above + below.lstrip("\r\n") + text[source.line_end(last) :]
-    if is_below:
-        tail = "" if rest else text[after_colon : source.line_start(node.start)].rstrip()
+    is_beside = source.line_number(node.start) == source.line_number(head_end)
+    replaced = (
+        _beside_key(source, node, first, below)
+        if is_beside
+        else _below_key(source, node, head_end, first, below)
+    )
+    return source.text[:head_end] + replaced + _rest(source, source.line_end(written_end(source, node)))
+
+
+def _beside_key(source: Source, node: Node, first: str, below: str) -> str:
+    """Return what takes the place of a value that begins beside its key, with the comment behind it."""
+    last = written_end(source, node)
+    return _headed(first, below, source.text[last : source.line_end(last)].rstrip())
+
+
+def _below_key(source: Source, node: Node, head_end: int, first: str, below: str) -> str:
+    """Return what takes the place of a block, with the comments between its key and it."""
+    above = source.text[head_end : source.line_start(node.start)]
+    return _headed(first, below, above.rstrip()) if first else above + below.lstrip("\r\n")
+
+
+def _headed(first: str, below: str, comment: str) -> str:
+    """Return what follows a key; a comment can stand before a block, but not inside a folded text."""
+    is_folded = below and first and not first.startswith("|")
     head = f" {first}" if first else ""
-    comment = tail.rstrip()
-    folded = rest and first and not first.startswith("|")
-    after_head, after_all = ("", comment) if folded else (comment, "")
-    return text[:after_colon] + head + after_head + below + after_all + text[source.line_end(last) :]
+    return head + below + comment if is_folded else head + comment + below
 
 
-def _like(node: Node, value: Data, source: Source, column_from: int) -> list[str] | None:
+def _rest(source: Source, offset: int) -> str:
+    return source.text[offset:] or line_break(source)
+
+
+def _like(node: Node, value: Data, source: Source, head_end: int) -> list[str] | None:
     """Return a value on one line if the one it replaces was a collection on one line and it fits."""
     if not isinstance(node, Mapping | Sequence) or not node.flow or not suits_flow(value):
         return None
     flow = flow_text(value)
-    return [flow] if _column(source, column_from) + 1 + len(flow) <= WIDTH else None
+    return [flow] if _column(source, head_end) + 1 + len(flow) <= WIDTH else None
 
 
 def added_entry(
@@ -70,13 +88,13 @@ def added_entry(
         if entries:
             at, flow = entries[-1].value.end, f", {flow}"
         return _spliced_flow(source, at, at, flow, value)
-    before = parent.entries.get(after or "", entries[-1])
+    before = entries[-1] if after is None else parent.entries.get(after, entries[-1])
     column = _column(source, entries[0].key.start)
     at = _behind_comments(source, written_end(source, before.value), max(column, 1))
     gap = _gap(source, entries, before, value) if column == 0 else ""
-    rest = source.text[at:]
-    closing = gap if before is not entries[-1] and not BLANK_LINE.match(rest) else ""
-    return source.text[:at] + gap + _joined(source, entry_lines(key, value, column), column) + closing + rest
+    closing = gap if before is not entries[-1] and not BLANK_LINE.match(source.text, at) else ""
+    lines = _joined(source, entry_lines(key, value, column), column)
+    return source.text[:at] + gap + lines + closing + _rest(source, at)
 
 
 def _gap(source: Source, entries: list[Entry], before: Entry, value: Data) -> str:
@@ -100,16 +118,18 @@ def deleted_entry(source: Source, parent: Mapping, key: str) -> str | None:
     start = source.line_start(entry.key.start)
     if parent.flow or len(parent.entries) == 1 or text[start : entry.key.start].strip():
         return None
-    rest = text[source.line_end(written_end(source, entry.value)) :]
-    rest = LINE_BREAK.sub("", rest, count=1)
-    ends_blank = not text[:start].strip() or BLANK_LINE.search(text[:start][-4:] + "|") is not None
-    return text[:start] + (
-        LINE_BREAK.sub("", rest, count=1) if ends_blank and LINE_BREAK.match(rest) else rest
-    )
+    rest = _without_break(text[source.line_end(written_end(source, entry.value)) :])
+    is_after_blank = not text[:start].strip() or AFTER_BLANK_LINE.search(text, max(0, start - 100), start)
+    return text[:start] + (_without_break(rest) if is_after_blank else rest)
+
+
+def _without_break(text: str) -> str:
+    found = LINE_BREAK.match(text)
+    return text[found.end() :] if found else text
 
 
 def replaced_item(source: Source, parent: Sequence, index: int, value: Data) -> str | None:
-    """Give an item of a list another value: in brackets any that fits, else a single value for a single value."""
+    """Give an item of a list another value: in brackets any that fits, else a single one for a single one."""
     item = parent.items[index]
     if parent.flow:
         return _spliced_flow(source, item.start, item.end, flow_text(value), value)

@@ -29,7 +29,7 @@ KINDS: dict[type[yaml.Event], Kind] = {
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """One step of the parser; `text` is a scalar's value, `style` its first character or '' if it is plain."""
+    """One step of the parser; `text` is a scalar's value, `style` what begins it or '' if it is plain."""
 
     kind: Kind
     start: int

@@ -20,9 +20,9 @@ MERGE = "<<"
 def entries_of(
     source: Source, pieces: Iterable[Piece], flow: bool
 ) -> tuple[dict[str, Entry], list[Diagnosis]]:
-    """Return the entries of a mapping by their keys, without those that cannot be kept, and what is wrong with them.
+    """Return the entries of a mapping by key, as far as they can be kept, and what is wrong with the keys.
 
-    Of a key that is given twice the first is kept; a number or truth as a key is kept as the text it is written as.
+    Of a key that is given twice the first is kept; a number or truth as a key is kept as it is written.
     """
     entries: dict[str, Entry] = {}
     mistakes: list[Diagnosis] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-Data: TypeAlias = "dict[str, Data] | list[Data] | str | int | float | bool | None"
+Data: TypeAlias = dict[str, "Data"] | list["Data"] | str | int | float | bool | None
 DataPath: TypeAlias = tuple[str | int, ...]
 
 
@@ -13,8 +13,8 @@ DataPath: TypeAlias = tuple[str | int, ...]
 class Scalar:
     """A single value: its text, as YAML reads the characters from start to end, and what the text means.
 
-    The style is '' for a plain scalar, else the character that begins it; start and end include quotes, anchors
-    and the header of a block scalar.
+    The style is '' for a plain scalar, else the character that begins it. Start and end include quotes,
+    anchors and a block scalar's header.
     """
 
     start: int
@@ -24,8 +24,13 @@ class Scalar:
     data: str | int | float | bool | None
 
     @property
+    def is_unwritten(self) -> bool:
+        """Say whether it is the null that follows `key:` where nothing is written."""
+        return not self.style and self.start == self.end
+
+    @property
     def is_plain(self) -> bool:
-        """Say whether it stands without quotes; what is left out, as after `key:`, does not count."""
+        """Say whether it is written without quotes."""
         return not self.style and self.start < self.end
 
 

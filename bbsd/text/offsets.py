@@ -35,8 +35,8 @@ ESCAPES |= {"N": "\x85", "_": "\xa0", "L": "\u2028", "P": "\u2029"}
 def source_offsets(text: str, scalar: Scalar) -> list[int]:
     """Return where each character of the scalar's text begins in the file's text, and where the value ends.
 
-    YAML drops indentation, folds line breaks and resolves escapes; what is not blank stays in order, so the characters
-    are matched one by one, and blanks are matched to the blanks between them.
+    YAML drops indentation, folds line breaks and resolves escapes, but what is not blank stays in order:
+    these characters are matched one by one, and blanks to the blanks between them.
     """
     pieces = [*_pieces(text, scalar)]
     offsets, index = [], 0
@@ -51,7 +51,7 @@ def source_offsets(text: str, scalar: Scalar) -> list[int]:
 
 
 def _pieces(text: str, scalar: Scalar) -> Iterator[tuple[int, str]]:
-    """Yield each character that the source spells out, with its offset, and last the end with an empty one."""
+    """Yield each character that the source spells out behind its offset; last the end and ''."""
     opening = re.compile(PROPERTIES + OPENINGS.get(scalar.style, "")).match(text, scalar.start)
     start = opening.end() if opening else scalar.start
     end = scalar.end - (scalar.style in {"'", '"'})
@@ -66,5 +66,5 @@ def _spelled(piece: str) -> str:
     if piece == "''":
         return "'"
     if piece[1] in "xuU":
-        return chr(int(piece[2:], 16))
+        return chr(int(piece.lstrip("\\xuU"), 16))
     return ESCAPES.get(piece[1], piece[1])

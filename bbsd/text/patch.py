@@ -33,11 +33,11 @@ def replace_blocks(
 ) -> str:
     """Return the document's text with what is at each path set, added or, for DELETE, removed, in that order.
 
-    Comments, order and layout outside the blocks are kept byte for byte. New keys go to the end of their mapping, at the
-    top level behind the key `after` if there is one. The result reads as the data with those changes: where an edit of
-    the block alone does not (it holds an anchor that is used elsewhere, say), the block around it is written anew.
-    Raises ValueError if the document has mistakes or is at odds with a path: there is a single value on its way,
-    or nothing to delete.
+    Comments, order and layout outside the blocks are kept byte for byte. New keys go to the end of their
+    mapping, at the top level behind the key `after` if there is one. The result always reads as the data
+    with those changes: where a change of the block alone cannot do that (it has an anchor that is used
+    elsewhere, say), the block around it is written anew. Raises ValueError if the document has mistakes,
+    or a path does not fit it: there is a single value on its way, or nothing to delete.
     """
     if document.diagnoses:
         raise ValueError("a text with mistakes cannot be changed")

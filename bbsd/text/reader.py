@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 def read(source: Source) -> Document:
-    """Read a YAML 1.2 text (core schema) as a mapping, with all mistakes that can be found together, in file order.
+    """Read a YAML 1.2 text (core schema) as a mapping, with all mistakes that can be found together.
 
-    Never raises: what is wrong is in the document's diagnoses. Bounds: 50 000 keys and values and 40 levels with aliases
-    expanded, texts of 10 000 characters, numbers of 100.
+    Never raises: what is wrong is in the document's diagnoses, in the order of the text. Bounds: 50 000
+    keys and values and 40 levels with aliases expanded, texts of 10 000 characters, numbers of 100.
     """
     from bbsd.text.composition import compose  # noqa: PLC0415 - PyYAML is slow to import
 

@@ -73,7 +73,8 @@ def _escaped(character: str) -> str:
 def literal_lines(text: str) -> list[str] | None:
     """Return the header and the lines, not indented, of a literal block, or None if the text cannot be one.
 
-    It can if it has more than one line and each is visible: printable, with something on it at both its ends.
+    It can if it has more than one line and each is visible: printable, with something on it at both its
+    ends.
     """
     lines = text.removesuffix("\n").split("\n")
     if "\n" not in text or not all(line.isprintable() and line == line.strip() != "" for line in lines):

@@ -26,8 +26,8 @@ class Source:
     def read(cls, path: str | Path) -> Source:
         """Read a file in UTF-8, with or without a byte order mark.
 
-        Raises SpecError where there is no such file, it is a directory, may not be opened, has more than 1 MB, or
-        is not UTF-8.
+        Raises SpecError where there is no such file, it is a directory, may not be opened, has more than
+        1 MB or is not UTF-8.
         """
         file = str(path)
         return _decoded(file, _content(file))

@@ -91,7 +91,7 @@ def _open_bracket(trouble: _Trouble) -> Diagnosis:
 
 
 def _is_outside(source: Source, trouble: _Trouble) -> bool:
-    """Say whether a bracket's next line is indented no more than its first, so that it belongs to what follows."""
+    """Say whether the line is indented no more than the bracket's, so that it is not meant to be inside."""
     if source.line_number(trouble.since) == source.line_number(trouble.at):
         return False
     return _indent(source, trouble.at) <= _indent(source, trouble.since)
@@ -120,18 +120,21 @@ def _quoting(value: str) -> str:
 def _list_on_key_line(trouble: _Trouble) -> Diagnosis:
     message = "a value cannot begin with a minus and a blank"
     advice = "remove the blank, if a negative number is meant; begin a list on the line below its key"
-    return trouble.says(message, advice)
+    return _more_after_value(trouble) or trouble.says(message, advice)
 
 
-def _more_after_value(trouble: _Trouble) -> Diagnosis:
+def _more_after_value(trouble: _Trouble) -> Diagnosis | None:
+    """Diagnose what follows the closing bracket or quote of a value, or an alias, on the same line."""
     before = trouble.before_on_line()
     lead = LEAD.match(before)
     value = before[lead.end() :] if lead else before
-    if value.startswith(VALUES_WITH_END):
-        return _needs_quotes(trouble, trouble.at - len(value))
+    return _needs_quotes(trouble, trouble.at - len(value)) if value.startswith(VALUES_WITH_END) else None
+
+
+def _no_key(trouble: _Trouble) -> Diagnosis:
     if trouble.character in {"}", "]"}:
         return _closes_nothing(trouble)
-    return _misplaced_line(trouble)
+    return _more_after_value(trouble) or _misplaced_line(trouble)
 
 
 def _misplaced_line(trouble: _Trouble) -> Diagnosis:
@@ -145,7 +148,8 @@ def _misplaced_line(trouble: _Trouble) -> Diagnosis:
 
 def _no_dash(trouble: _Trouble) -> Diagnosis:
     message = "this line stands in a list and does not begin with a dash"
-    return trouble.says(message, "indent it as the item above, or move it out of the list")
+    advice = "indent it as the item above, or move it out of the list"
+    return _more_after_value(trouble) or trouble.says(message, advice)
 
 
 def _second_colon(trouble: _Trouble) -> Diagnosis:
@@ -210,7 +214,7 @@ def _after_end(trouble: _Trouble) -> Diagnosis:
     return trouble.says("there is more after the end of the document", "remove it, or the line with ...")
 
 
-# In the parser's words: (part of what it was doing, part of what it found, what that means). The first that fits counts.
+# (a part of what the parser was doing, a part of what it found, what that means); the first that fits counts.
 _EXPLANATIONS: tuple[tuple[str, str, Callable[[_Trouble], Diagnosis]], ...] = (
     ("quoted scalar", "unexpected end of stream", _open_quote),
     ("quoted scalar", "unexpected document indicator", _open_quote),
@@ -227,7 +231,7 @@ _EXPLANATIONS: tuple[tuple[str, str, Callable[[_Trouble], Diagnosis]], ...] = (
     ("", "mapping keys are not allowed", _needs_quotes),
     ("", "block sequence entries are not allowed", _list_on_key_line),
     ("", "did not find expected '-'", _no_dash),
-    ("", "did not find expected key", _more_after_value),
+    ("", "did not find expected key", _no_key),
     ("", "mapping values are not allowed", _second_colon),
     ("", "could not find expected ':'", _key_without_colon),
     ("", "did not find expected node content", _no_value),

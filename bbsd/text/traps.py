@@ -25,8 +25,8 @@ GLUED = re.compile(r"([A-Za-z_]\w*):[^\s/:]")
 def join_at_commas(text: str, pieces: Iterable[Piece]) -> tuple[list[Piece], list[Scalar]]:
     """Rejoin the pieces of a flow mapping or list that a comma between parentheses separated.
 
-    `{speed: min(speed, top)}` is the key `speed` with the text `min(speed`, and a key `top)` without a value. Returns
-    the pieces as meant and the scalars that were rejoined.
+    `{speed: min(speed, top)}` is the key `speed` with the text `min(speed`, and a key `top)` without a
+    value. Returns the pieces as meant and the scalars that were rejoined.
     """
     rest, meant, joined = list(pieces)[::-1], [], []
     while rest:
@@ -43,7 +43,7 @@ def join_at_commas(text: str, pieces: Iterable[Piece]) -> tuple[list[Piece], lis
 
 
 def _pieces_to_closing(piece: Piece, following: Iterable[Piece]) -> int:
-    """Return how many of the following pieces close the parenthesis this one leaves open; 0 if they do not."""
+    """Return how many following pieces close the parenthesis that this one leaves open; 0 if none do."""
     key, value = piece
     is_bare = _is_nothing(value)
     depth = _opened(key if is_bare else value)
@@ -63,7 +63,7 @@ def _opened(node: Node) -> int:
 
 
 def _is_nothing(node: Node) -> bool:
-    return isinstance(node, Scalar) and not node.style and node.start == node.end
+    return isinstance(node, Scalar) and node.is_unwritten
 
 
 def _join(text: str, first: Piece, last: Piece) -> tuple[Piece, Scalar]:
@@ -89,7 +89,7 @@ def comma_mistakes(source: Source, joined: Sequence[Scalar]) -> list[Diagnosis]:
 
 
 def glued_mistake(source: Source, key: Scalar, value: Node, flow: bool) -> Diagnosis | None:
-    """Diagnose `key:value`, which is one text: in a flow mapping a key, below a key on its own line a value."""
+    """Diagnose `key:value`, which is one text: a key in a flow mapping, a value on a line below a key."""
     suspect = key if flow and _is_nothing(value) else value
     if not isinstance(suspect, Scalar) or not suspect.is_plain or not GLUED.match(suspect.text):
         return None

@@ -1,4 +1,4 @@
-"""Plain data as YAML text in the style of the examples: blocks, two blanks of indentation, short lists on a line."""
+"""Plain data as YAML text in one style: blocks indented by two blanks, short lists on one line."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ FLOW_KEYS = frozenset({"when"})  # whose mappings read best on one line
 def write(data: dict[str, Data]) -> str:
     """Return a mapping as YAML text that `read` reads as the same data, with blank lines around its blocks.
 
-    Texts are quoted only where a reader of YAML 1.2 or 1.1 would take them for something else. Raises TypeError for
-    anything but dicts with text keys, lists and single values.
+    Texts are quoted only where a reader of YAML 1.2 or 1.1 would take them for something else. Raises
+    TypeError for anything but dicts with text keys, lists and single values.
     """
     if not data:
         return "{}\n"
@@ -39,7 +39,7 @@ def entry_lines(key: str, value: Data, indent: int = 0) -> list[str]:
 
 
 def value_lines(value: Data, indent: int, column: int, key: str = "") -> list[str]:
-    """Return what follows a key on its line, '' for a block, and the lines below, to be indented like the key.
+    """Return what follows a key on its line ('' for a block) and the lines below, indented from the key.
 
     The key stands `indent` blanks from the left, and its value would begin at `column`.
     """
@@ -82,7 +82,8 @@ def _folded(text: str, indent: int, column: int) -> list[str]:
 def _inline(value: Data, column: int, key: str) -> str | None:
     """Return a value on one line if that is how it is written at this column, else None.
 
-    Single values and empty collections always are; lists without mappings and what is under `when` are where they fit.
+    Single values and empty collections always are; lists without mappings and what is under `when`, where
+    they fit.
     """
     if not isinstance(value, dict | list) or not value:
         return flow_text(value)

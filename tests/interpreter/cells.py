@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import product
+from itertools import pairwise, product
 from math import inf
 from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Call
 from bbsd.kernel.functions import clamp_index
-from bbsd.spec.models import NO_ACTION_TEXT, OPEN, OTHERWISE, When
+from bbsd.spec.models import NO_ACTION_TEXT, OPEN, When
 from bbsd.spec.written import Expression
 from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 
@@ -22,7 +22,7 @@ Partition = Expression | dict[str, Expression]
 
 
 def sensed(partition: Partition, place: str, scope_at: Callable[[str, Expression], Scope]) -> Value:
-    """A sensor's value, or the number of the cell it is in; scope_at(place, expression) is what an expression there sees."""
+    """A sensor's value, or the number of its cell; scope_at(place, expression) is what an expression sees."""
     if isinstance(partition, dict):
         return named_cell(partition, place, scope_at)
     scope = scope_at(place, partition)
@@ -62,10 +62,11 @@ def labels(partition: Partition, constants: Mapping[str, Value]) -> list[str]:
     match partition.tree:
         case Call(function="cut", arguments=(_, *bounds)):
             at = [written(evaluate(bound, scope)) for bound in bounds]
-            between = [f"{low} to {high}" for low, high in zip(at, at[1:], strict=False)]
+            between = [f"{low} to {high}" for low, high in pairwise(at)]
             return [f"below {at[0]}", *between, f"from {at[-1]}"]
         case Call(function="values", arguments=(_, first, last)):
-            return [str(number) for number in range(int(evaluate(first, scope)), int(evaluate(last, scope)) + 1)]
+            lowest, highest = int(evaluate(first, scope)), int(evaluate(last, scope))
+            return [str(number) for number in range(lowest, highest + 1)]
     return ["false", "true"]
 
 
@@ -100,19 +101,29 @@ def interval(label: str) -> tuple[float, float]:
 
 
 def given_table(behavior: Behavior, spec: Spec, constants: Mapping[str, Value]) -> list[int]:
-    """What the rules decide in each cell: 0 for no action, the action's number, or OPEN_CELL; the last input changes fastest."""
+    """Each cell's action by its number, 0 for no action, or OPEN_CELL; the last input changes fastest."""
     inputs = partitions(behavior, spec)
-    numbers = {NO_ACTION_TEXT: 0, OPEN: OPEN_CELL} | {name: number for number, name in enumerate(behavior.actions, 1)}
+    actions = {name: number for number, name in enumerate(behavior.actions, 1)}
+    numbers = {NO_ACTION_TEXT: 0, OPEN: OPEN_CELL, **actions}
     cells = product(*(range(len(labels(partition, constants))) for partition in inputs.values()))
     return [numbers[decided(behavior, inputs, cell, constants)] for cell in cells]
 
 
-def decided(behavior: Behavior, inputs: dict[str, Partition], cell: Sequence[int], constants: Mapping[str, Value]) -> str:
+def decided(
+    behavior: Behavior,
+    inputs: dict[str, Partition],
+    cell: Sequence[int],
+    constants: Mapping[str, Value],
+) -> str:
     """What the first rule that matches a cell decides."""
     at = dict(zip(inputs, cell, strict=True))
+
+    def matches(name: str, which: list[str]) -> bool:
+        return any(at[name] in covered(label, inputs[name], constants) for label in which)
+
     for rule in behavior.rules or ():
         if not isinstance(rule, When):
             return rule.otherwise
-        if all(any(at[name] in covered(label, inputs[name], constants) for label in which) for name, which in rule.when.items()):
+        if all(matches(name, which) for name, which in rule.when.items()):
             return rule.do
     return OPEN

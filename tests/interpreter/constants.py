@@ -23,7 +23,8 @@ def read_constants(spec: Spec, seed: int, generation: int) -> dict[str, Value]:
     def value(name: str, robot: int) -> Value:
         if name in sizes:
             return float(sizes[name])
-        return valued(spec.constants[name], f"constants.{name}", fold(purpose, name_word(name)), Moment(value))
+        key = fold(purpose, name_word(name))
+        return valued(spec.constants[name], f"constants.{name}", key, Moment(value))
 
     return {name: value(name, 0) for name in spec.constants}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cache, reduce
+from functools import cache, partial, reduce
 from operator import add
 from typing import TYPE_CHECKING
 
@@ -43,7 +43,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Design:
-    """An architecture for a spec: a table for each behavior, and the behaviors of the layers, the lowest first."""
+    """An architecture: a table for each behavior, and the behaviors of the layers, the lowest first."""
 
     tables: Sequence[Sequence[int]]
     structure: Sequence[int]
@@ -72,11 +72,8 @@ class Episode:
 
     def fixed(self) -> dict[str, Value]:
         """What is the same for all robots at all times."""
-        return {**self.constants, "robots": float(len(self.robots)), "steps": float(self.spec.environment.steps)}
-
-    def owners(self, name: str) -> Sequence[int]:
-        """For whom a world or state name is evaluated."""
-        return [0] if name in self.spec.environment.world else self.robots
+        sizes = {"robots": self.spec.environment.robots, "steps": self.spec.environment.steps}
+        return {**self.constants, **{name: float(size) for name, size in sizes.items()}}
 
 
 def definitions(spec: Spec) -> dict[str, Definition]:
@@ -89,7 +86,11 @@ def definitions(spec: Spec) -> dict[str, Definition]:
 
 
 def run_episode(
-    spec: Spec, constants: Mapping[str, Value], tables: Sequence[Sequence[int]], structure: Sequence[int], lane_key: int
+    spec: Spec,
+    constants: Mapping[str, Value],
+    tables: Sequence[Sequence[int]],
+    structure: Sequence[int],
+    lane_key: int,
 ) -> Result:
     """One episode of a design; all that it draws follows from lane_key."""
     episode = Episode(spec, constants, definitions(spec), lane_key)
@@ -117,13 +118,14 @@ def start(episode: Episode) -> Moment:
     def value(name: str, robot: int) -> Value:
         if name in fixed:
             return fixed[name]
+        now = Moment(value)
         if name in environment.world:
-            return episode.evaluate(f"environment.world.{name}", environment.world[name], 0, Moment(value))
+            return episode.evaluate(f"environment.world.{name}", environment.world[name], 0, now)
         if name in environment.state:
-            return episode.evaluate(f"environment.state.{name}", environment.state[name], robot, Moment(value))
-        return sensor(episode, name, robot, Moment(value))
+            return episode.evaluate(f"environment.state.{name}", environment.state[name], robot, now)
+        return sensor(episode, name, robot, now)
 
-    return Moment(value)
+    return settled(episode, Moment(value))
 
 
 def sensor(episode: Episode, name: str, robot: int, moment: Moment) -> Value:
@@ -131,8 +133,13 @@ def sensor(episode: Episode, name: str, robot: int, moment: Moment) -> Value:
     return sensed(
         episode.spec.environment.sensors[name],
         f"environment.sensors.{name}",
-        lambda place, expression: episode.scope(place, expression, robot, moment),
+        partial(scope_of, episode, robot, moment),
     )
+
+
+def scope_of(episode: Episode, robot: int, moment: Moment, place: str, expression: Expression) -> Scope:
+    """What an expression sees, for `sensed`."""
+    return episode.scope(place, expression, robot, moment)
 
 
 def controls(episode: Episode, design: Design, snapshot: Moment, robot: int) -> int:
@@ -140,7 +147,8 @@ def controls(episode: Episode, design: Design, snapshot: Moment, robot: int) -> 
     behaviors = list(episode.spec.behaviors.items())
     for index in reversed(design.structure):
         name, behavior = behaviors[index]
-        excited = behavior.excited is None or episode.evaluate(f"behaviors.{name}.excited", behavior.excited, robot, snapshot)
+        place, condition = f"behaviors.{name}.excited", behavior.excited
+        excited = condition is None or episode.evaluate(place, condition, robot, snapshot)
         if excited and decision(episode, design, snapshot, robot, index) != 0:
             return index
     return NOBODY
@@ -149,21 +157,18 @@ def controls(episode: Episode, design: Design, snapshot: Moment, robot: int) -> 
 def decision(episode: Episode, design: Design, snapshot: Moment, robot: int, index: int) -> int:
     """What a behavior's table says in the cell that a robot is in."""
     name, behavior = list(episode.spec.behaviors.items())[index]
-    listed = not isinstance(behavior.inputs, dict)
     row = 0
     for given, partition in partitions(behavior, episode.spec).items():
-        cell = (
-            snapshot.value(given, robot)
-            if listed
-            else sensed(partition, f"behaviors.{name}.inputs.{given}", lambda *at: episode.scope(*at, robot, snapshot))
-        )
+        if isinstance(behavior.inputs, dict):
+            place = f"behaviors.{name}.inputs.{given}"
+            cell = sensed(partition, place, partial(scope_of, episode, robot, snapshot))
+        else:
+            cell = snapshot.value(given, robot)
         row = row * len(labels(partition, episode.constants)) + int(cell)
     return design.tables[index][row]
 
 
-def act(
-    episode: Episode, design: Design, snapshot: Moment, controlling: Sequence[int]
-) -> Moment:
+def act(episode: Episode, design: Design, snapshot: Moment, controlling: Sequence[int]) -> Moment:
     """The controlling actions, all from the snapshot; what they do not set stays."""
     assigned = {}
     for robot, index in zip(episode.robots, controlling, strict=True):
@@ -196,7 +201,19 @@ def sense(episode: Episode, moment: Moment) -> Moment:
             return sensor(episode, name, robot, replace(moment, value=value))
         return moment.value(name, robot)
 
-    return replace(moment, value=value)
+    return settled(episode, replace(moment, value=value))
+
+
+def settled(episode: Episode, moment: Moment) -> Moment:
+    """The same moment, all its values worked out."""
+    names = [*episode.fixed(), *seen_names(episode)]
+    values = {(name, robot): moment.value(name, robot) for name in names for robot in episode.robots}
+    return replace(moment, value=lambda name, robot: values[name, robot])
+
+
+def seen_names(episode: Episode) -> list[str]:
+    environment = episode.spec.environment
+    return [*environment.world, *environment.state, *environment.sensors]
 
 
 def changed(moment: Moment, values: Mapping[tuple[str, int], Value], before: Moment | None) -> Moment:
@@ -216,7 +233,7 @@ def reward_terms(episode: Episode, moment: Moment, robot: int) -> list[float]:
 
 
 def account(result: Result, controlling: Sequence[int], terms: Sequence[Sequence[float]]) -> None:
-    """Add a step's reinforcement to the return, to the credit of what controlled, and to the totals of the terms."""
+    """Add a step's reinforcement to the return, to the credit of what controlled, and to each term's."""
     n_robots = float(len(terms))
     shares = [divide(reduce(add, of_robot), n_robots) for of_robot in terms]
     result.return_ += reduce(add, shares)
@@ -234,6 +251,4 @@ def ended(episode: Episode, moment: Moment) -> bool:
 
 def seen(episode: Episode, moment: Moment) -> dict[str, list[Value]]:
     """All values of a moment, for the trace."""
-    environment = episode.spec.environment
-    names = [*environment.world, *environment.state, *environment.sensors]
-    return {name: [moment.value(name, robot) for robot in episode.robots] for name in names}
+    return {name: [moment.value(name, robot) for robot in episode.robots] for name in seen_names(episode)}

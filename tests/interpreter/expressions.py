@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import reduce
-from operator import add, and_, eq, ge, gt, le, lt, mul, ne, or_, sub
+from operator import add, and_, eq, ge, gt, le, lt, mul, ne, neg, not_, or_, pos, sub
 from typing import Any
 
 from bbsd.expression.tree import (
@@ -39,7 +39,10 @@ ARITHMETIC = {
     "%": functions.modulo,
     "**": functions.power,
 }
+SIGNS: dict[str, Callable[[Value], Value]] = {"-": neg, "+": pos, "not": not_}
 COMPARISONS = {"<": lt, "<=": le, ">": gt, ">=": ge, "==": eq, "!=": ne}
+BETTER: dict[str, Callable[[Value, Value], bool]] = {"argmin": lt, "argmax": gt}
+JOINTS = {"and": and_, "or": or_}
 FOLDS = {"sum": add, "min": functions.minimum, "max": functions.maximum, "any": or_, "all": and_}
 
 
@@ -53,7 +56,7 @@ class Definition:
 
 @dataclass(frozen=True)
 class Moment:
-    """One time: what each name is worth to each robot, and the time at the beginning of the step, if that is another."""
+    """One time: what each name is worth to each robot, and the beginning of its step."""
 
     value: Callable[[str, int], Value]
     step: int = 0
@@ -87,7 +90,7 @@ def evaluate(expr: Expr, scope: Scope) -> Value:
         case Comparison(operators=operators, operands=operands):
             return compared(operators, [evaluate(operand, scope) for operand in operands])
         case Logical(operator=operator, operands=operands):
-            return reduce({"and": and_, "or": or_}[operator], [evaluate(operand, scope) for operand in operands])
+            return reduce(JOINTS[operator], [evaluate(operand, scope) for operand in operands])
         case Conditional(condition=condition, then=then, otherwise=otherwise):
             arms = evaluate(otherwise, scope), evaluate(then, scope)
             return arms[evaluate(condition, scope)]
@@ -99,12 +102,12 @@ def evaluate(expr: Expr, scope: Scope) -> Value:
 
 
 def unary(operator: str, value: Value) -> Value:
-    return {"-": lambda: -value, "+": lambda: value, "not": lambda: not value}[operator]()
+    return SIGNS[operator](value)
 
 
 def compared(operators: tuple[str, ...], values: list[Value]) -> bool:
     pairs = zip(operators, values, values[1:], strict=False)
-    return all([COMPARISONS[operator](left, right) for operator, left, right in pairs])
+    return all(COMPARISONS[operator](left, right) for operator, left, right in pairs)
 
 
 def named(name: str, scope: Scope) -> Value:
@@ -141,7 +144,8 @@ def called(call: Call, scope: Scope) -> Value:
         return scope.draw(call, scope.positions, values)
     if name in scope.definitions:
         definition = scope.definitions[name]
-        return evaluate(definition.body, replace(scope, local=dict(zip(definition.parameters, values, strict=True))))
+        local = dict(zip(definition.parameters, values, strict=True))
+        return evaluate(definition.body, replace(scope, local=local))
     if name in FUNCTIONS:
         return function_named(FUNCTIONS[name].operation)(*values)
     return aggregate(name, values[0] if len(values) == 1 and isinstance(values[0], list) else values)
@@ -160,7 +164,7 @@ def generated(aggregate_name: str, each: Each, scope: Scope) -> Value:
         inner = replace(scope, local={**scope.local, **bound}, positions=(*scope.positions, position))
         values.append(evaluate(each.element, inner))
     if aggregate_name in ("argmin", "argmax"):
-        return items[best(values, {"argmin": lt, "argmax": gt}[aggregate_name])]
+        return items[best(values, BETTER[aggregate_name])]
     return aggregate(aggregate_name, values)
 
 
@@ -173,7 +177,7 @@ def source(expr: Expr, scope: Scope) -> list[Value]:
             return [float(robot) for robot in range(scope.robots) if robot != scope.robot]
         case Call(function="range", arguments=(count,)):
             return [float(number) for number in range(int(evaluate(count, scope)))]
-    return evaluate(expr, scope)
+    return list(evaluate(expr, scope))
 
 
 def aggregate(name: str, values: list[Value]) -> Value:
@@ -181,6 +185,8 @@ def aggregate(name: str, values: list[Value]) -> Value:
     match name:
         case "list":
             return values
+        case "argmin" | "argmax":
+            return float(best(values, BETTER[name]))
         case "mean":
             return functions.divide(reduce(add, values), float(len(values)))
     return reduce(FOLDS[name], values)

@@ -1,22 +1,29 @@
-"""What a spec means: constants with values, the episode as one graph, tables with given cells, the structure, the rates."""
+"""What a spec means: constants, the episode as one graph, tables, the structure, the rates."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Kind, whole_nodes
-from bbsd.expression.mistakes import Mistake
+from bbsd.expression.graph import Graph, GraphTooLargeError, Kind, whole_nodes
+from bbsd.expression.mistakes import Mistake, TooManyMistakesError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
-from bbsd.expression.tree import Span
 from bbsd.kernel.streams import name_word, word_of
 from bbsd.spec.meaning.constants import Constants, read_constants
-from bbsd.spec.meaning.definitions import blocks, cyclic, definitions, twice
+from bbsd.spec.meaning.definitions import blocks, definitions, twice, unordered
 from bbsd.spec.meaning.episode import Episode, episode
-from bbsd.spec.meaning.names import Names, Slot
+from bbsd.spec.meaning.names import Names
 from bbsd.spec.meaning.rates import Rates, rates
 from bbsd.spec.meaning.structure import Structure, structure
-from bbsd.spec.models import Spec
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable
+
+    from bbsd.spec.models import Spec
+
+MAX_ROUNDS = 100
+"""Steps in which a fraction can spread from one slot to the next before none is held for whole."""
 
 __all__ = ["Meaning", "mean", "seed_key"]
 
@@ -27,6 +34,7 @@ class Meaning:
 
     spec: Spec
     seed: int
+    graph: Graph
     constants: Constants
     episode: Episode
     structure: Structure
@@ -38,46 +46,65 @@ def seed_key(seed: int) -> int:
     return name_word(f"bbsd seed {seed}") ^ word_of(seed)
 
 
-def mean(spec: Spec, seed: int, broken: frozenset[str] = frozenset()) -> tuple[Meaning | None, tuple[tuple[Path, Mistake], ...]]:
+def mean(
+    spec: Spec, seed: int, broken: frozenset[str] = frozenset()
+) -> tuple[Meaning | None, tuple[tuple[Path, Mistake], ...]]:
     """Elaborate a spec; all mistakes with their places in it, and the meaning if there are none.
 
     `broken` are names whose own mistakes were told before; nothing is said about their use.
     """
-    graph, findings = Graph(), Findings()
-    defined = definitions(spec.environment.definitions, findings)
-    silent = {name: Unusable() for name in broken} | cyclic(spec, defined, findings)
-    silent |= {name: Unusable() for name in twice(blocks(spec, defined), findings)}
+    findings = Findings()
+    try:
+        meaning = _meaning(spec, seed, broken, findings)
+    except TooManyMistakesError:
+        meaning = None
+    except GraphTooLargeError:
+        meaning, (path, span) = None, findings.entered
+        advice = "use fewer robots, or shorter lists and ranges"
+        findings.mistakes[
+            path, Mistake("BB068", "the spec unrolls to too many values here", span, advice)
+        ] = None
+    mistakes = tuple(findings.mistakes)
+    return None if mistakes or broken else meaning, mistakes
+
+
+def _meaning(spec: Spec, seed: int, broken: frozenset[str], findings: Findings) -> Meaning | None:
+    graph = Graph()
+    defined, misnamed = definitions(spec.environment.definitions, findings)
+    silent = {name: Unusable() for name in broken} | misnamed
+    silent |= twice(blocks(spec, defined), findings) | unordered(spec, defined, findings)
     constants = read_constants(spec.constants, seed_key(seed), graph, findings, frozenset(silent))
-    names = Names(spec, graph, findings, constants, defined, silent)
-    meant = episode(names)
+    meant = episode(Names(spec, graph, findings, constants, defined, silent))
     layers = structure(spec, findings, broken)
     shared = {name: Shared(value) for name, value in constants.values.items()} | silent
     changing = rates(spec, graph, findings, shared)
-    if meant is not None and not findings.mistakes:
-        _check_wholes(meant, constants, findings)
-    mistakes = tuple(findings.mistakes)
-    if meant is None or mistakes or broken:
-        return None, mistakes
-    return Meaning(spec, seed, constants, meant, layers, changing), ()
+    if meant is None:
+        return None
+    _check_wholes(meant, constants, findings)
+    return Meaning(spec, seed, graph, constants, meant, layers, changing)
 
 
 def _check_wholes(meant: Episode, constants: Constants, findings: Findings) -> None:
     """Every value used as an index or in values(...) must be whole, given that the slots it reads are."""
-    whole = _whole_slots(meant, constants)
+    is_whole = cache(constants.whole)
+    nodes = [node for *_, node in findings.wholes]
+    whole = whole_nodes(nodes, _whole_slots(meant, is_whole), is_whole)
     for path, span, purpose, node in findings.wholes:
-        if not whole_nodes([node], whole, constants.whole)[node.number]:
+        if not whole[node.number]:
             message = f"{purpose} must be a whole number, and this need not be one"
-            findings.mistakes[path, Mistake("BB064", message, span, "round it: floor(...) or round(...)")] = None
+            findings.tell(path, "BB064", message, span, "round it: floor(...) or round(...)")
 
 
-def _whole_slots(meant: Episode, constants: Constants) -> Mapping[Slot, bool]:
-    """The slots that hold whole numbers at all times: the largest set that starts so and is kept by every step."""
-    whole = {slot: node.kind is Kind.NUMBER for slot, node in meant.start.items()}
-    while True:
-        found = whole_nodes([*meant.start.values(), *meant.after.values()], whole, constants.whole)
-        kept = {
-            slot: held and found[meant.start[slot].number] and found[meant.after[slot].number] for slot, held in whole.items()
+def _whole_slots(meant: Episode, is_whole: Callable[[Hashable], bool]) -> dict[Hashable, bool]:
+    """The slots that always hold whole numbers: the largest set that starts so and that every step keeps."""
+    whole: dict[Hashable, bool] = {slot: node.kind is Kind.NUMBER for slot, node in meant.start.items()}
+    for _ in range(MAX_ROUNDS):
+        found = whole_nodes([*meant.start.values(), *meant.after.values()], whole, is_whole)
+        kept: dict[Hashable, bool] = {
+            slot: whole[slot] and found[start.number] and found[meant.after[slot].number]
+            for slot, start in meant.start.items()
         }
         if kept == whole:
             return whole
         whole = kept
+    return dict.fromkeys(whole, False)

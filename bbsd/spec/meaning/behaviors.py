@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import prod
+from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Node
-from bbsd.expression.mistakes import Mistake
-from bbsd.expression.scope import Path
-from bbsd.expression.tree import Name, Span
-from bbsd.spec.meaning.names import Moment, Names
+from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.expression.tree import Name
 from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
-from bbsd.spec.meaning.rules import Table, table
-from bbsd.spec.models import Behavior, PartitionText
+from bbsd.spec.meaning.rules import Table, decisions, table
 from bbsd.spec.written import Expression
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+
+    from bbsd.expression.scope import Path
+    from bbsd.spec.meaning.names import Moment, Names
+    from bbsd.spec.models import Behavior, PartitionText
 
 MAX_ACTIONS = 200
 
@@ -25,7 +29,7 @@ MAX_ACTIONS = 200
 class Module:
     """One behavior (1), for all robots.
 
-    `inputs` are the cells of each input, in the order of the table's dimensions; `cells[robot]` their indices,
+    `inputs` are the cells of each input in the order of the table's dimensions, `cells[robot]` their indices,
     `excited[robot]` where it is excited, `actions[action][state][robot]` what an action sets.
     """
 
@@ -47,26 +51,25 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
     names, path = decision.names, ("behaviors", name)
     excited = tuple(_excited(written, decision, (*path, "excited"), robot) for robot in names.robots)
     actions = {
-        action: _action(sets, decision, (*path, "actions", action), kinds) for action, sets in written.actions.items()
+        action: _action(sets, decision, (*path, "actions", action), kinds)
+        for action, sets in written.actions.items()
     }
-    if not 1 <= len(actions) <= MAX_ACTIONS:
-        _tell(names, (*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions")
+    if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
+        names.findings.tell((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
     per_robot = [_inputs(written, decision, (*path, "inputs"), robot) for robot in names.robots]
     understood = [inputs for inputs in per_robot if inputs is not None]
     if len(understood) < len(per_robot):
+        decisions(written.rules, list(actions), (*path, "rules"), names.findings, names.unusable)
         return None
     inputs = {key: found.cells for key, found in understood[0].items()}
     if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
         advice = "cut the inputs more coarsely"
-        _tell(names, (*path, "inputs"), "BB039", f"this table would have more than {MAX_CELLS} cells", advice)
+        message = f"this table would have more than {MAX_CELLS} cells"
+        names.findings.tell((*path, "inputs"), "BB039", message, KEY, advice)
         return None
     cells = tuple(tuple(found.index for found in robot.values()) for robot in understood)
-    given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings)
+    given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings, names.unusable)
     return Module(name, inputs, cells, excited, actions, given)
-
-
-def _tell(names: Names, path: Path, code: str, message: str, advice: str = "") -> None:
-    names.findings.mistakes[path, Mistake(code, message, Span(0, 0), advice)] = None
 
 
 def _excited(written: Behavior, decision: Moment, path: Path, robot: int) -> Node:
@@ -85,16 +88,19 @@ def _action(
         here = (*path, target)
         if target not in names.spec.environment.state:
             if target not in names.unusable:
-                _tell(names, here, "BB033", _not_state(target, names), "actions set a robot's own state")
+                message, advice = _not_state(target, names), "actions set a robot's own state"
+                names.findings.tell(here, "BB033", message, KEY, advice)
             continue
         read = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
-        meant[target] = tuple(read(written.tree, decision.scope.at(here, robot, draws=True)) for robot in names.robots)
+        meant[target] = tuple(
+            read(written.tree, decision.scope.at(here, robot, draws=True)) for robot in names.robots
+        )
     return meant
 
 
 def _not_state(target: str, names: Names) -> str:
     environment = names.spec.environment
-    known = {
+    known: dict[str, Collection[str]] = {
         "a value of the world": environment.world,
         "a sensor": environment.sensors,
         "a constant": names.spec.constants,
@@ -111,10 +117,12 @@ def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict
     if isinstance(written.inputs, dict):
         found = {name: _own(cut, decision, (*path, name), robot) for name, cut in written.inputs.items()}
     else:
-        found = {name: _shared(name, decision, (*path, place), robot) for place, name in enumerate(written.inputs)}
+        found = {
+            name: _shared(name, decision, (*path, place), robot) for place, name in enumerate(written.inputs)
+        }
         for place, name in enumerate(written.inputs):
             if name in written.inputs[:place]:
-                _tell(decision.names, (*path, place), "BB040", f"{name} is listed twice")
+                decision.names.findings.tell((*path, place), "BB040", f"{name} is listed twice")
     understood = {name: part for name, part in found.items() if part is not None}
     return understood if len(understood) == len(written.inputs) else None
 
@@ -134,7 +142,8 @@ def _shared(name: str, decision: Moment, path: Path, robot: int) -> Partition | 
         return None
     if name not in sensors:
         advice = "inputs lists sensors; other partitions are written as a mapping: name, then what it cuts"
-        _tell(names, path, "BB041", f'"{name}" is not a sensor{did_you_mean(name, sensors)}', advice)
+        message = f'"{name}" is not a sensor{did_you_mean(name, sensors)}'
+        names.findings.tell(path, "BB041", message, WHOLE, advice)
         return None
     if is_partition(sensors[name]):
         return decision.partition(name, robot)
@@ -142,6 +151,7 @@ def _shared(name: str, decision: Moment, path: Path, robot: int) -> Partition | 
     if isinstance(found, tuple) or found.kind is Kind.NUMBER:
         what = "a list" if isinstance(found, tuple) else "a number"
         advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
-        _tell(names, path, "BB030", f"an input needs a partition, and {name} is {what}", advice)
+        message = f"an input needs a partition, and {name} is {what}"
+        names.findings.tell(path, "BB030", message, WHOLE, advice)
         return None
     return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("int", found))

@@ -2,17 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, cast
+from math import nan
+from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Graph, Kind, Level, Node, evaluate, needed, rebuilt, value_of, whole_nodes
+from bbsd.expression.graph import (
+    LEAVES,
+    Graph,
+    Kind,
+    Level,
+    Node,
+    evaluate,
+    needed,
+    rebuilt,
+    value_of,
+    whole_nodes,
+)
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
 from bbsd.kernel import streams
-from bbsd.spec.meaning.order import in_order
-from bbsd.spec.models import ConstantValue
-from bbsd.spec.written import Expression
+from bbsd.kernel.functions import clamp_index
+from bbsd.spec.meaning.order import among_themselves, in_order, names_in
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Mapping
+
+    from bbsd.spec.models import ConstantValue
+    from bbsd.spec.written import Expression
 
 GENERATION = "generation"
 
@@ -28,10 +44,14 @@ class Constants:
     scalars: tuple[Node, ...]
     leaves: Mapping[str, Value]
     """The same shapes, as the leaves by which a kernel reads them."""
+    wholes: tuple[bool, ...]
+    """For each scalar, whether it is certainly a whole number."""
 
     def vector(self, generation: int) -> list[float]:
         """All scalars in order, as they are in a generation (counted from 1)."""
-        return [float(value) for value in evaluate(self.scalars, lambda node, _: _generation(node, generation))]
+        return [
+            float(value) for value in evaluate(self.scalars, lambda node, _: _generation(node, generation))
+        ]
 
     def plain(self, name: str) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
         """A constant's value as plain data; None where it depends on the generation."""
@@ -39,29 +59,43 @@ class Constants:
 
     def static(self, node: Node) -> float | None:
         """The value of a node of constants, where it is the same in every generation."""
-        leaves = [found for found in needed([node]) if not found.operands and not found.literal]
-        if any(found.operation != "constant" or not self.scalars[cast("int", found.data)].literal for found in leaves):
+        if any(found.operation in LEAVES and not self._is_static(found) for found in needed([node])):
             return None
-        return cast("float", evaluate([node], lambda found, _: value_of(self.scalars[cast("int", found.data)]))[0])
+        return float(evaluate([node], self._at_leaf)[0])
 
-    def whole(self, data: object) -> bool:
+    def _is_static(self, leaf: Node) -> bool:
+        if leaf.operation == "gather":
+            return all(self.scalars[place].literal for place in _places(leaf.data))
+        return leaf.operation == "constant" and self.scalars[cast("int", leaf.data)].literal
+
+    def _at_leaf(self, leaf: Node, operands: list[float]) -> float:
+        if leaf.operation == "constant":
+            return cast("float", value_of(self.scalars[cast("int", leaf.data)]))
+        base, strides, lengths = cast("Block", leaf.data)
+        clamped = [clamp_index(index, length - 1) for index, length in zip(operands, lengths, strict=True)]
+        place = base + sum(stride * index for stride, index in zip(strides, clamped, strict=True))
+        return cast("float", value_of(self.scalars[place]))
+
+    def whole(self, data: Hashable) -> bool:
         """Whether a constant, or every constant that a gather may read, is certainly whole."""
-        if isinstance(data, int):
-            return self._is_whole(data)
-        base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", data)
-        places = [base]
-        for stride, length in zip(strides, lengths, strict=True):
-            places = [place + stride * step for place in places for step in range(length)]
-        return all(self._is_whole(place) for place in places)
+        places = [data] if isinstance(data, int) else _places(data)
+        return all(self.wholes[place] for place in places)
 
-    def _is_whole(self, place: int) -> bool:
-        node = self.scalars[place]
-        return whole_nodes([node], {GENERATION: True}, lambda _: False)[node.number]
+
+Block = tuple[int, tuple[int, ...], tuple[int, ...]]
+"""What a gather may read: the first place, and for each index a stride and a length."""
+
+
+def _places(data: Hashable) -> list[int]:
+    base, strides, lengths = cast("Block", data)
+    places = [base]
+    for stride, length in zip(strides, lengths, strict=True):
+        places = [place + stride * step for place in places for step in range(length)]
+    return places
 
 
 def _generation(node: Node, generation: int) -> float:
-    assert node.operation == "slot", node.operation
-    return float(generation)
+    return float(generation) if node.data == GENERATION else nan
 
 
 def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
@@ -71,27 +105,35 @@ def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of n
 
 
 def read_constants(
-    written: Mapping[str, ConstantValue], seed_key: int, graph: Graph, findings: Findings, cyclic: frozenset[str]
+    written: Mapping[str, ConstantValue],
+    seed_key: int,
+    graph: Graph,
+    findings: Findings,
+    unusable: frozenset[str],
 ) -> Constants:
     """Evaluate the constants; draws come from the stream of (seed, the constant's name)."""
-    bindings: dict[str, Binding] = {GENERATION: Shared(graph.leaf("slot", GENERATION, Kind.NUMBER, Level.CALL))}
-    base = Scope(graph, bindings, findings, static=lambda node: cast("float", value_of(node)) if node.literal else None)
+    bindings: dict[str, Binding] = {
+        GENERATION: Shared(graph.leaf("slot", GENERATION, Kind.NUMBER, Level.CALL)),
+        **dict.fromkeys(unusable, Unusable()),
+    }
+    base = Scope(graph, bindings, findings)
     constants_key = streams.fold(seed_key, streams.name_word("constants"))
     values: dict[str, Value] = {}
-    for name in _in_order(written, cyclic):
+    for name in _in_order(written, unusable):
         path: Path = ("constants", name)
         key = streams.fold(constants_key, streams.name_word(name))
         values[name] = _settled(_read(written[name], base, path), key, base.at(path), written[name])
         bindings[name] = Shared(values[name])
-    bindings.update({name: Unusable() for name in cyclic})
     ordered = {name: values[name] for name in written if name in values}
     scalars: list[Node] = []
     leaves = {name: _leaf(value, scalars, graph) for name, value in ordered.items()}
-    return Constants(ordered, tuple(scalars), leaves)
+    whole = whole_nodes(scalars, {GENERATION: True}, lambda _: False)
+    return Constants(ordered, tuple(scalars), leaves, tuple(whole[node.number] for node in scalars))
 
 
-def _in_order(written: Mapping[str, ConstantValue], cyclic: frozenset[str]) -> list[str]:
-    return in_order({name: expressions_in(value) for name, value in written.items() if name not in cyclic})
+def _in_order(written: Mapping[str, ConstantValue], unusable: frozenset[str]) -> list[str]:
+    used = {name: names_in(expressions_in(value)) for name, value in written.items() if name not in unusable}
+    return in_order(among_themselves(used))
 
 
 def expressions_in(value: ConstantValue) -> list[Expression]:
@@ -112,23 +154,24 @@ def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
     if isinstance(value, tuple):
         return tuple(_numbers_only(item, scope, written) for item in value)
     if value.kind is Kind.TRUTH:
-        return scope.mistake("BB055", "a constant is a number or a list of numbers, not a truth", written.tree.span)
+        message = "a constant is a number or a list of numbers, not a truth"
+        return scope.mistake("BB055", message, written.tree.span)
     return value
 
 
 def _settled(value: Value, key: int, scope: Scope, written: ConstantValue) -> Value:
-    """The value with its draws drawn from the stream of `key`; what depends on the generation stays an expression."""
+    """The value with its draws drawn from the stream of `key`; what depends on the generation stays open."""
     if isinstance(value, tuple):
         parts = written if isinstance(written, tuple) else (written,) * len(value)
         return tuple(_settled(item, key, scope, part) for item, part in zip(value, parts, strict=True))
     try:
         return rebuilt(value, scope.graph, lambda node, operands: _drawn(node, operands, key, scope.graph))
-    except _DrawsWithGeneration:
+    except _DrawsWithGenerationError:
         span = expressions_in(written)[0].tree.span
         return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)
 
 
-class _DrawsWithGeneration(Exception):
+class _DrawsWithGenerationError(Exception):
     pass
 
 
@@ -136,7 +179,7 @@ def _drawn(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
     if node.operation != "draw":
         return node
     if not all(operand.literal for operand in operands):
-        raise _DrawsWithGeneration
+        raise _DrawsWithGenerationError
     distribution, word = cast("tuple[str, int]", node.data)
     drawn = streams.DISTRIBUTIONS[distribution](key, word, *(value_of(operand) for operand in operands))
     return graph.truth(value=bool(drawn)) if node.kind is Kind.TRUTH else graph.number(drawn)
@@ -146,4 +189,8 @@ def _leaf(value: Value, scalars: list[Node], graph: Graph) -> Value:
     if isinstance(value, tuple):
         return tuple(_leaf(item, scalars, graph) for item in value)
     scalars.append(value)
-    return value if value.kind is Kind.UNKNOWN else graph.leaf("constant", len(scalars) - 1, Kind.NUMBER, Level.CALL)
+    return (
+        value
+        if value.kind is Kind.UNKNOWN
+        else graph.leaf("constant", len(scalars) - 1, Kind.NUMBER, Level.CALL)
+    )

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from itertools import product
+from itertools import pairwise, product
+from math import inf
+from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Kind, Node, needed, value_of
+from bbsd.expression.graph import Graph, Kind, Node, compute, needed, value_of
 from bbsd.expression.operations import COMPARISONS, INFIX
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
 
 MAX_CASES = 4096
 
@@ -16,8 +20,8 @@ MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 def covers_everything(conditions: list[Node], graph: Graph) -> bool:
     """True if at least one condition holds in every case that numbers can be in.
 
-    Comparisons of one value with known bounds are decided together, in and between the bounds; two values are below, equal or
-    above; anything else is free. NaN is not a case: what is not a number falls into the last cell.
+    Comparisons of one value with known bounds are decided together, in and between the bounds; two values are
+    below, equal or above; anything else is free. NaN is no case: it falls into the last cell.
     """
     anything = graph.fold("|", conditions)
     if anything.literal:
@@ -34,7 +38,11 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
 
 
 def _is_atom(node: Node) -> bool:
-    return node.kind is Kind.TRUTH and not node.literal and node.operation not in ("&", "|", "not", "select", "int")
+    return (
+        node.kind is Kind.TRUTH
+        and not node.literal
+        and node.operation not in ("&", "|", "not", "select", "int")
+    )
 
 
 def _groups(atoms: Iterable[Node]) -> dict[tuple[int, ...], list[Node]]:
@@ -45,7 +53,7 @@ def _groups(atoms: Iterable[Node]) -> dict[tuple[int, ...], list[Node]]:
 
 
 def _subject(atom: Node) -> tuple[int, ...]:
-    """Atoms about the same thing have the same subject: the value compared with numbers, or the pair of values."""
+    """The same for atoms about the same thing: the value compared with numbers, or the pair of values."""
     if atom.operation not in COMPARISONS:
         return (-1, atom.number)
     left, right = atom.operands
@@ -60,8 +68,8 @@ def _cases(group: list[Node]) -> list[dict[int, bool]]:
         return [{first.number: truth} for truth in (False, True)]
     if any(node.literal for node in first.operands):
         bounds = sorted({float(value_of(node)) for atom in group for node in atom.operands if node.literal})
-        between = [(low + high) / 2 for low, high in zip(bounds, bounds[1:], strict=False)]
-        points = [bounds[0] - 1, *bounds, *between, bounds[-1] + 1]
+        between = [low / 2 + high / 2 for low, high in pairwise(bounds)]
+        points = [-inf, *bounds, *between, inf]
         return [{atom.number: _compared(atom, point) for atom in group} for point in points]
     return [{atom.number: _ordered(atom, order) for atom in group} for order in (-1, 0, 1)]
 
@@ -81,23 +89,14 @@ def _holds(condition: Node, combination: Iterable[Mapping[int, bool]]) -> bool:
     truths: dict[int, bool] = {}
     for case in combination:
         truths.update(case)
-    return _decide(condition, truths)
+    for node in needed([condition]):
+        if node.number not in truths and node.kind is Kind.TRUTH:
+            truths[node.number] = _decided(node, truths)
+    return truths[condition.number]
 
 
-def _decide(node: Node, truths: Mapping[int, bool]) -> bool:
-    if node.number in truths:
-        return truths[node.number]
+def _decided(node: Node, truths: Mapping[int, bool]) -> bool:
+    """The truth of what is made of truths; `node` is no atom."""
     if node.literal:
         return bool(value_of(node))
-    match node.operation, node.operands:
-        case "&", (left, right):
-            return _decide(left, truths) and _decide(right, truths)
-        case "|", (left, right):
-            return _decide(left, truths) or _decide(right, truths)
-        case "not", (inner,):
-            return not _decide(inner, truths)
-        case "select", (condition, then, otherwise):
-            return _decide(then if _decide(condition, truths) else otherwise, truths)
-    raise AssertionError(node.operation)
-
-
+    return bool(compute(node.operation, [truths[operand.number] for operand in node.operands]))

@@ -3,44 +3,57 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
-from bbsd.expression.mistakes import Mistake
-from bbsd.expression.parsing import NAME
+from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
-from bbsd.expression.tree import Span
-from bbsd.expression.vocabulary import RESERVED
+from bbsd.expression.tree import frames, names_used
 from bbsd.spec.meaning.constants import expressions_in
-from bbsd.spec.meaning.order import circles, dependencies
+from bbsd.spec.meaning.order import among_themselves, circles, heights, names_in
 from bbsd.spec.models import OTHERWISE, Spec
-from bbsd.spec.written import Expression
+from bbsd.spec.written import Expression, is_value_name
 
-KEY = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\))?\s*\Z")
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Mapping
+
+LINK = 8
+"""Frames that Python needs to get from a name to the expression behind it."""
+MAX_HEIGHT = 600
+"""Frames for a chain of names; Python has 1000."""
+
+KEY_TEXT = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\))?\s*\Z")
 
 
-def definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
-    """Each definition by its name; a key that cannot be read is told of and passed over."""
+def definitions(
+    written: Mapping[str, Expression], findings: Findings
+) -> tuple[dict[str, Definition], dict[str, Unusable]]:
+    """Each definition by its name, and the names of those whose key cannot be read, which is told."""
     found: dict[str, Definition] = {}
+    unusable: dict[str, Unusable] = {}
     for key, expression in written.items():
         path: Path = ("environment", "definitions", key)
-        match = KEY.match(key)
+        match = KEY_TEXT.match(key)
         names = _names(match) if match else []
-        wrong = next((name for name in names if not NAME.match(name) or name in RESERVED), None)
-        if not names or wrong is not None or len(set(names)) < len(names):
-            message = f'"{key}" cannot be a definition\'s name'
-            findings.mistakes[path, Mistake("BB024", message, Span(0, 0), "write name or name(a, b), in small letters")] = None
+        if names and all(is_value_name(name) for name in names) and len(set(names)) == len(names):
+            if names[0] in found:
+                _tell_twice(names[0], path, found[names[0]].path, findings)
+            found.setdefault(names[0], Definition(tuple(names[1:]), expression.tree, path))
         else:
-            found[names[0]] = Definition(tuple(names[1:]), expression.tree, path)
-    return found
+            advice = "write name or name(a, b), in small letters"
+            findings.tell(path, "BB024", f'"{key}" cannot be a definition\'s name', KEY, advice)
+            unusable[names[0] if names else key] = Unusable()
+    return found, unusable
 
 
 def _names(match: re.Match[str]) -> list[str]:
     parameters = match["parameters"]
-    return [match["name"], *(name.strip() for name in parameters.split(","))] if parameters else [match["name"]]
+    return (
+        [match["name"], *(name.strip() for name in parameters.split(","))] if parameters else [match["name"]]
+    )
 
 
 def blocks(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Path]]:
-    """Every name of the shared namespace with the place that makes it, in the order of the language's reference."""
+    """Every name of the shared namespace and the place that makes it."""
     environment = spec.environment
     return [
         *((name, ("constants", name)) for name in spec.constants),
@@ -51,39 +64,73 @@ def blocks(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Pat
     ]
 
 
-def twice(named: Iterable[tuple[str, Path]], findings: Findings) -> set[str]:
+def twice(named: Iterable[tuple[str, Path]], findings: Findings) -> dict[str, Unusable]:
     """Names that stand for two things; the second place is told of."""
     first: dict[str, Path] = {}
-    found = set()
+    found: dict[str, Unusable] = {}
     for name, path in named:
         if name in first:
-            message = f"{name} is already the name of something in {'.'.join(str(part) for part in first[name][:-1])}"
-            advice = "constants, world, state, definitions and sensors share their names"
-            findings.mistakes[path, Mistake("BB025", message, Span(0, 0), advice)] = None
-            found.add(name)
+            _tell_twice(name, path, first[name], findings)
+            found[name] = Unusable()
         first.setdefault(name, path)
     return found
 
 
-def cyclic(spec: Spec, defined: Mapping[str, Definition], findings: Findings) -> dict[str, Unusable]:
-    """Names whose values would need themselves, each circle told of once."""
-    environment = spec.environment
-    constants = {name: expressions_in(value) for name, value in spec.constants.items()}
-    starts = {name: [start] for name, start in (*environment.world.items(), *environment.state.items())}
-    derived = {name: [Expression("", definition.expression)] for name, definition in defined.items()}
-    derived |= {name: _conditions(written) for name, written in environment.sensors.items()}
+def _tell_twice(name: str, path: Path, first: Path, findings: Findings) -> None:
+    message = f"{name} is already the name of something in {'.'.join(str(part) for part in first[:-1])}"
+    advice = "constants, world, state, definitions and sensors share their names"
+    findings.tell(path, "BB025", message, KEY, advice)
+
+
+def unordered(spec: Spec, defined: Mapping[str, Definition], findings: Findings) -> dict[str, Unusable]:
+    """Names whose values would need themselves, or too long a chain of other values; which is told."""
+    places = dict(reversed(blocks(spec, defined)))
     found: dict[str, Unusable] = {}
-    places = dict(blocks(spec, defined))
-    for group in (constants, starts | derived):
-        for circle in circles(dependencies(group)):
+    constants = {name: names_in(expressions_in(value)) for name, value in spec.constants.items()}
+    for group in (constants, _episodes_uses(spec, defined)):
+        uses = among_themselves(group)
+        told, involved = circles(uses)
+        for circle in told:
             message = f"a circle: {' needs '.join(circle)}"
-            mistake = Mistake("BB063", message, Span(0, 0), "keep one of the values as state, from step to step")
-            findings.mistakes[places[circle[0]], mistake] = None
-            found |= dict.fromkeys(circle, Unusable())
-    return found
+            advice = "keep one of the values as state, from step to step"
+            findings.tell(places[circle[0]], "BB063", message, KEY, advice)
+        found |= dict.fromkeys(involved, Unusable())
+    return found | _too_high(spec, defined, found.keys(), findings)
+
+
+def _episodes_uses(spec: Spec, defined: Mapping[str, Definition]) -> dict[str, frozenset[str]]:
+    uses = {name: names_in(written) for name, written in _written(spec).items()}
+    for name, definition in defined.items():
+        uses[name] = names_used(definition.expression, frozenset(definition.parameters))
+    return uses
+
+
+def _written(spec: Spec) -> dict[str, list[Expression]]:
+    environment = spec.environment
+    starts = {name: [start] for name, start in (*environment.world.items(), *environment.state.items())}
+    return starts | {name: _conditions(written) for name, written in environment.sensors.items()}
 
 
 def _conditions(written: Expression | Mapping[str, Expression]) -> list[Expression]:
     if isinstance(written, Expression):
         return [written]
     return [condition for condition in written.values() if condition.text != OTHERWISE]
+
+
+def _too_high(
+    spec: Spec, defined: Mapping[str, Definition], unordered: Collection[str], findings: Findings
+) -> dict[str, Unusable]:
+    """Names that build on a longer chain of others than can be followed."""
+    trees = {name: [each.tree for each in written] for name, written in _written(spec).items()}
+    trees |= {name: [definition.expression] for name, definition in defined.items()}
+    weights = {name: LINK + max(map(frames, of), default=0) for name, of in trees.items()}
+    uses = {name: others for name, others in _episodes_uses(spec, defined).items() if name not in unordered}
+    found: dict[str, Unusable] = {}
+    for name, height in heights(among_themselves(uses), weights).items():
+        if MAX_HEIGHT < height <= MAX_HEIGHT + weights[name]:
+            found[name] = Unusable()
+            message = f"{name} needs too long a chain of values, each computed from the next"
+            findings.tell(
+                dict(blocks(spec, defined))[name], "BB060", message, KEY, "keep one of them as state"
+            )
+    return found

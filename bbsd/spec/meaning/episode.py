@@ -1,33 +1,37 @@
 """What happens in an episode: the start, and one step from decision to end, as one graph.
 
-The phases are those of the language's definition: decide and act from one snapshot, dynamics from the values after the
-actions with the sensors of the snapshot, then new sensors, reward and end. Since every value is a node, what a phase reads is just
-which nodes its names stand for.
+The phases are those of the language's definition: decide and act from one snapshot, dynamics from the values
+after the actions with the sensors of the snapshot, then new sensors, reward and end. Since every value is a
+node, what a phase reads is just which nodes its names stand for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Level, Node
-from bbsd.expression.mistakes import Mistake
+from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
-from bbsd.expression.tree import Span
 from bbsd.spec.meaning.behaviors import Module, module
-from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, flat, moment, slots_of
+from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, flat, moment, slot, slots_of
 from bbsd.spec.meaning.partitions import Partition, is_partition
-from bbsd.spec.written import Expression
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from bbsd.spec.written import Expression
 
 
 @dataclass(frozen=True, slots=True)
 class Episode:
     """All that a rollout computes, as nodes.
 
-    `start` and `after` give every slot its first and its next value, `acted` state after the actions; `choices[robot]` is
-    the leaf that stands for the controlling action's number (0: nobody's, else counted over all behaviors in order);
-    `reward[term][robot]`; `definitions` as they are after the step.
+    `start` and `after` give every slot its first and its next value, `acted` state after the actions;
+    `choices[robot]` is the leaf that stands for the controlling action's number (0: nobody's, else counted
+    over all behaviors in order); `reward[term][robot]`; `definitions` as they are after the step.
     """
 
     modules: tuple[Module, ...]
@@ -38,6 +42,8 @@ class Episode:
     choices: tuple[Node, ...]
     reward: Mapping[str, tuple[Node, ...]]
     ends: Node | None
+    partitions: Mapping[str, tuple[str, ...]]
+    """The cells of each sensor that is a partition."""
 
 
 def episode(names: Names) -> Episode | None:
@@ -68,6 +74,9 @@ def episode(names: Names) -> Episode | None:
         choices=choices,
         reward=_reward(outcome),
         ends=_ends(outcome),
+        partitions={
+            name: found.cells for (name, robot), found in beginning.partitions.items() if found and not robot
+        },
     )
     return meant if len(modules) == len(found) else None
 
@@ -92,12 +101,14 @@ def _start(names: Names) -> Stored:
     bindings: dict[str, Binding] = {
         name: Unusable("BB066", f"{name} is not known yet when values start") for name in environment.sensors
     }
-    bindings |= {name: Deferred(lambda name=name: start(name, 0)) for name in environment.world}  # type: ignore[misc]
-    bindings |= {name: PerRobot(lambda robot, name=name: start(name, robot)) for name in environment.state}  # type: ignore[misc]
+    bindings |= {name: Deferred(partial(start, name, 0)) for name in environment.world}
+    bindings |= {name: PerRobot(partial(start, name)) for name in environment.state}
     scope = names.scope(bindings, names.graph.number(0))
-    robots = {name: names.robots for name in environment.state} | {name: range(1) for name in environment.world}
+    robots = dict.fromkeys(environment.state, names.robots) | {name: range(1) for name in environment.world}
     return {
-        name: tuple(names.graph.unknown if name in names.unusable else start(name, robot) for robot in robots[name])
+        name: tuple(
+            names.graph.unknown if name in names.unusable else start(name, robot) for robot in robots[name]
+        )
         for name in (*environment.world, *environment.state)
     }
 
@@ -106,7 +117,7 @@ def _slots(stored: Stored, names: Names) -> Stored:
     world = names.spec.environment.world
     return {
         name: tuple(
-            elaboration.one(slots_of(name, None if name in world else robot, value, names.graph))
+            slot((name, None if name in world else robot, ()), value, names.graph)
             for robot, value in enumerate(values)
         )
         for name, values in stored.items()
@@ -123,7 +134,9 @@ def _decision(now: Stored, beginning: Moment, names: Names) -> Moment:
                 slot = names.graph.leaf("slot", (name, robot, ()), Kind.CELL, Level.LANE)
                 decision.partitions[name, robot] = None if cells is None else Partition(cells.cells, slot)
             else:
-                decision.values[name, robot] = slots_of(name, robot, beginning.value(name, robot), names.graph)
+                decision.values[name, robot] = slots_of(
+                    name, robot, beginning.value(name, robot), names.graph
+                )
     return decision
 
 
@@ -141,17 +154,19 @@ def _acted(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], 
 
 
 def _dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Names) -> Stored:
-    """The next state and world, all at once, from the values after the actions and the sensors of the snapshot."""
+    """The next state and world, all at once, from what the actions left and the sensors of the snapshot."""
     environment = names.spec.environment
     then = dict(acted)
     for name, written in environment.dynamics.items():
         path: Path = ("environment", "dynamics", name)
         if name in acted:
             robots = [names.team] if name in environment.world else names.robots
-            then[name] = tuple(_as(kinds[name], written, scope.at(path, robot, draws=True)) for robot in robots)
+            then[name] = tuple(
+                _as(kinds[name], written, scope.at(path, robot, draws=True)) for robot in robots
+            )
         elif name not in names.unusable:
             message = f"{name} is neither world nor state, so it has no dynamics"
-            names.findings.mistakes[path, Mistake("BB033", message, Span(0, 0))] = None
+            names.findings.tell(path, "BB033", message, KEY)
     return then
 
 
@@ -162,13 +177,13 @@ def _as(kind: Kind, written: Expression, scope: Scope) -> Node:
 
 
 def _definitions(outcome: Moment) -> dict[Slot, Node]:
-    """Definitions without parameters, robot by robot; those with parameters are only looked through for mistakes."""
+    """Definitions without parameters, robot by robot; the others are only looked through for mistakes."""
     names = outcome.names
     found: dict[Slot, Node] = {}
     for name, definition in names.definitions.items():
         for robot in names.robots:
             unknown = dict.fromkeys(definition.parameters, names.graph.unknown)
-            here = outcome.scope.at(definition.path, robot).binding(unknown)
+            here = replace(outcome.scope.at(definition.path, robot), local=unknown)
             value = elaboration.value(definition.expression, here)
             found |= {} if definition.parameters else flat(value, name, robot)
     return found
@@ -177,7 +192,8 @@ def _definitions(outcome: Moment) -> dict[Slot, Node]:
 def _reward(outcome: Moment) -> dict[str, tuple[Node, ...]]:
     return {
         term: tuple(
-            elaboration.number(written.tree, outcome.scope.at(("reward", term), robot)) for robot in outcome.names.robots
+            elaboration.number(written.tree, outcome.scope.at(("reward", term), robot))
+            for robot in outcome.names.robots
         )
         for term, written in outcome.names.spec.reward.items()
     }
@@ -186,7 +202,11 @@ def _reward(outcome: Moment) -> dict[str, tuple[Node, ...]]:
 def _ends(outcome: Moment) -> Node | None:
     written = outcome.names.spec.environment.ends
     path = ("environment", "ends")
-    return None if written is None else elaboration.truth(written.tree, outcome.scope.at(path, outcome.names.team))
+    return (
+        None
+        if written is None
+        else elaboration.truth(written.tree, outcome.scope.at(path, outcome.names.team))
+    )
 
 
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:

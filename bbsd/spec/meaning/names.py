@@ -4,13 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import TYPE_CHECKING, cast
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Graph, Kind, Level, Node
-from bbsd.expression.scope import Binding, Definition, Findings, Path, PerRobot, Scope, Shared, Unusable, Value
-from bbsd.spec.meaning.constants import Constants
+from bbsd.expression.scope import (
+    Binding,
+    Definition,
+    Findings,
+    Path,
+    PerRobot,
+    Scope,
+    Shared,
+    Unusable,
+    Value,
+)
 from bbsd.spec.meaning.partitions import Partition, is_partition, partition
-from bbsd.spec.models import Spec
+
+if TYPE_CHECKING:
+    from bbsd.spec.meaning.constants import Constants
+    from bbsd.spec.models import Spec
+    from bbsd.spec.written import Expression
 
 Stored = Mapping[str, tuple[Node, ...]]
 """The values of state (one a robot) and of the world (one) at some moment of a step."""
@@ -54,7 +69,9 @@ class Names:
             "steps": Shared(graph.number(self.spec.environment.steps)),
             "robots": Shared(graph.number(len(self.robots))),
             "robot": PerRobot(graph.number),
-            "generation": Unusable("BB066", "generation is known only in constants", "make a constant of it and use that"),
+            "generation": Unusable(
+                "BB066", "generation is known only in constants", "make a constant of it and use that"
+            ),
             **{name: Shared(leaves) for name, leaves in self.constants.leaves.items()},
             **self.definitions,
             **bindings,
@@ -75,8 +92,7 @@ class Moment:
     def value(self, name: str, robot: int) -> Value:
         """A plain sensor of one robot."""
         if (name, robot) not in self.values:
-            written = self.names.spec.environment.sensors[name]
-            assert not isinstance(written, dict)
+            written = cast("Expression", self.names.spec.environment.sensors[name])
             here = self.scope.at(("environment", "sensors", name), robot, draws=True)
             self.values[name, robot] = elaboration.value(written.tree, here)
         return self.values[name, robot]
@@ -86,15 +102,17 @@ class Moment:
         if (name, robot) not in self.partitions:
             path: Path = ("environment", "sensors", name)
             here = self.scope.at(path, robot, draws=True)
-            self.partitions[name, robot] = partition(self.names.spec.environment.sensors[name], here, path, robot)
+            self.partitions[name, robot] = partition(
+                self.names.spec.environment.sensors[name], here, path, robot
+            )
         return self.partitions[name, robot]
 
 
 def moment(names: Names, stored: Stored, step: Node, sensors: Moment | None = None) -> Moment:
-    """A moment at which stored values are as given; its sensors are evaluated anew, or are another moment's."""
+    """A moment at which stored values are as given; its sensors are evaluated anew, or another moment's."""
     made = Moment(names) if sensors is None else replace(sensors)
     sensed = {
-        name: _partitioned(name) if is_partition(written) else PerRobot(lambda robot, name=name: made.value(name, robot))  # type: ignore[misc]
+        name: _partitioned(name) if is_partition(written) else PerRobot(partial(made.value, name))
         for name, written in names.spec.environment.sensors.items()
     }
     made.scope = names.scope(_stored_names(stored, names) | sensed, step)
@@ -103,7 +121,10 @@ def moment(names: Names, stored: Stored, step: Node, sensors: Moment | None = No
 
 def _stored_names(stored: Stored, names: Names) -> dict[str, Binding]:
     world = names.spec.environment.world
-    return {name: Shared(values[0]) if name in world else PerRobot(values.__getitem__) for name, values in stored.items()}
+    return {
+        name: Shared(values[0]) if name in world else PerRobot(values.__getitem__)
+        for name, values in stored.items()
+    }
 
 
 def _partitioned(name: str) -> Unusable:
@@ -115,13 +136,20 @@ def slots_of(name: str, robot: int | None, shape: Value, graph: Graph, place: tu
     """Leaves that read a stored value of the same shape as `shape`."""
     if isinstance(shape, tuple):
         return tuple(slots_of(name, robot, item, graph, (*place, index)) for index, item in enumerate(shape))
-    if shape.kind is Kind.UNKNOWN:
-        return shape
-    return graph.leaf("slot", (name, robot, place), shape.kind, Level.LANE)
+    return slot((name, robot, place), shape, graph)
+
+
+def slot(data: Slot, like: Node, graph: Graph) -> Node:
+    """The leaf that reads a stored value of the same kind as `like`."""
+    return like if like.kind is Kind.UNKNOWN else graph.leaf("slot", data, like.kind, Level.LANE)
 
 
 def flat(value: Value, name: str, robot: int | None, place: tuple[int, ...] = ()) -> dict[Slot, Node]:
     """The scalars of a value by the slots that store them."""
     if isinstance(value, tuple):
-        return {slot: node for index, item in enumerate(value) for slot, node in flat(item, name, robot, (*place, index)).items()}
+        return {
+            slot: node
+            for index, item in enumerate(value)
+            for slot, node in flat(item, name, robot, (*place, index)).items()
+        }
     return {(name, robot, place): value}

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Node, value_of
-from bbsd.expression.scope import Path, Scope
 from bbsd.expression.text import render
 from bbsd.expression.tree import Call, Name, Span
 from bbsd.spec.meaning.coverage import covers_everything
 from bbsd.spec.models import OTHERWISE, PartitionText
-from bbsd.spec.written import Expression
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Path, Scope
+    from bbsd.spec.written import Expression
 
 TRUTH_CELLS = ("false", "true")
 MAX_CELLS = 1_000_000
@@ -28,7 +31,9 @@ class Partition:
 
 def is_partition(written: PartitionText) -> bool:
     """Whether a sensor is written as a partition that is no plain expression."""
-    return isinstance(written, dict) or (isinstance(written.tree, Call) and written.tree.function in ("cut", "values"))
+    return isinstance(written, dict) or (
+        isinstance(written.tree, Call) and written.tree.function in ("cut", "values")
+    )
 
 
 def partition(written: PartitionText, scope: Scope, path: Path, robot: int | None) -> Partition | None:
@@ -48,7 +53,9 @@ def _truth(written: Expression, scope: Scope) -> Partition | None:
     found = elaboration.value(written.tree, scope)
     if isinstance(found, tuple) or found.kind is Kind.NUMBER:
         what = "a list" if isinstance(found, tuple) else "a number"
-        advice = f"cut it: cut({written.text}, ...) or values({written.text}, first, last), or write a condition"
+        advice = (
+            f"cut it: cut({written.text}, ...) or values({written.text}, first, last), or write a condition"
+        )
         scope.mistake("BB030", f"an input needs a partition, and this is {what}", written.tree.span, advice)
         return None
     return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("int", found))
@@ -56,7 +63,9 @@ def _truth(written: Expression, scope: Scope) -> Partition | None:
 
 def _cut(tree: Call, scope: Scope) -> Partition | None:
     if len(tree.arguments) < 2:
-        scope.mistake("BB031", "cut takes a number and the bounds between its cells: cut(tilt, 2, 5)", tree.span)
+        scope.mistake(
+            "BB031", "cut takes a number and the bounds between its cells: cut(tilt, 2, 5)", tree.span
+        )
         return None
     of, *bounds = tree.arguments
     number = elaboration.number(of, scope)
@@ -69,7 +78,11 @@ def _cut(tree: Call, scope: Scope) -> Partition | None:
             scope.mistake("BB031", f"bounds must grow, and {high:g} does not exceed {low:g}", bound.span)
             return None
     texts = [render(bound) for bound in bounds]
-    labels = (f"below {texts[0]}", *(f"{low} to {high}" for low, high in pairwise(texts)), f"from {texts[-1]}")
+    labels = (
+        f"below {texts[0]}",
+        *(f"{low} to {high}" for low, high in pairwise(texts)),
+        f"from {texts[-1]}",
+    )
     graph = scope.graph
     passed = [graph.apply("int", graph.apply(">=", number, node)) for node in nodes]
     return Partition(labels, graph.fold("+", passed))
@@ -77,7 +90,11 @@ def _cut(tree: Call, scope: Scope) -> Partition | None:
 
 def _values(tree: Call, scope: Scope) -> Partition | None:
     if len(tree.arguments) != 3:
-        scope.mistake("BB031", "values takes a whole number, the first and the last value: values(speed, 0, 5)", tree.span)
+        scope.mistake(
+            "BB031",
+            "values takes a whole number, the first and the last value: values(speed, 0, 5)",
+            tree.span,
+        )
         return None
     of, first_tree, last_tree = tree.arguments
     number = elaboration.whole(of, scope, "what values(...) divides")
@@ -86,7 +103,11 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
     if number.kind is Kind.UNKNOWN or first is None or last is None:
         return None
     if not 1 <= last - first < MAX_CELLS:
-        scope.mistake("BB031", f"from {first} to {last} are not two values or more", Span(tree.span.start, tree.span.length))
+        scope.mistake(
+            "BB031",
+            f"from {first} to {last} are not two values or more",
+            Span(tree.span.start, tree.span.length),
+        )
         return None
     graph = scope.graph
     offset = graph.apply("-", number, graph.number(first)) if first else number
@@ -111,7 +132,9 @@ def _named(written: dict[str, Expression], scope: Scope, path: Path, robot: int 
         return None
     if not final and not covers_everything(nodes, scope.graph):
         advice = "write the last cell's condition as otherwise"
-        whole.at((*path, labels[-1])).mistake("BB032", "these cells do not provably cover everything", trees[-1].tree.span, advice)
+        whole.at((*path, labels[-1])).mistake(
+            "BB032", "these cells do not provably cover everything", trees[-1].tree.span, advice
+        )
         return None
     graph = scope.graph
     index = graph.cell(len(labels) - 1)

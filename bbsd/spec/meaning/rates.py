@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Graph, Kind, Level, Node, evaluate
-from bbsd.expression.mistakes import Mistake
+from bbsd.expression.graph import Graph, Kind, Level, Node, evaluate, needed
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared
-from bbsd.expression.tree import Span
-from bbsd.spec.models import Spec
-from bbsd.spec.written import Expression
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from bbsd.spec.models import Spec
+    from bbsd.spec.written import Expression
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +29,11 @@ def rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, 
     """Evaluate the rates; each must be a probability everywhere."""
     generations, episodes = spec.design.coevolution.generations, spec.design.learning.episodes
     counted = range(1, max(episodes, spec.design.learning.last) + 1)
-    shared = {**constants, "generations": Shared(graph.number(generations)), "episodes": Shared(graph.number(episodes))}
+    shared = {
+        **constants,
+        "generations": Shared(graph.number(generations)),
+        "episodes": Shared(graph.number(episodes)),
+    }
     generation = graph.leaf("slot", "generation", Kind.NUMBER, Level.CALL)
     episode = graph.leaf("slot", "episode", Kind.NUMBER, Level.CALL)
     scope = Scope(graph, {**shared, "generation": Shared(generation)}, findings)
@@ -49,14 +55,20 @@ def _node(written: Expression, scope: Scope, path: Path) -> Node:
     return elaboration.number(written.tree, scope.at(path))
 
 
-def _probabilities(node: Node, counted: range, findings: Findings, path: Path, unit: str) -> tuple[float, ...]:
+def _probabilities(
+    node: Node, counted: range, findings: Findings, path: Path, unit: str
+) -> tuple[float, ...]:
+    """The values for generations or episodes, each of which must be a probability."""
+    unknown = {cast("str", leaf.data) for leaf in needed([node]) if leaf.operation == "slot"} - {unit}
     if node.kind is Kind.UNKNOWN:
+        return ()
+    if unknown:
+        findings.tell(path, "BB066", f"this depends on the {unknown.pop()}, which is not known here")
         return ()
     values = tuple(float(evaluate([node], _at(number))[0]) for number in counted)
     for number, value in zip(counted, values, strict=True):
         if not 0 <= value <= 1:
-            message = f"this is {value:g} in {unit} {number}; it must be from 0 to 1"
-            findings.mistakes[path, Mistake("BB043", message, Span(0, 0))] = None
+            findings.tell(path, "BB043", f"this is {value:g} in {unit} {number}; it must be from 0 to 1")
             return ()
     return values
 

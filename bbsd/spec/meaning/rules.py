@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from math import prod
+from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.mistakes import Mistake
-from bbsd.expression.scope import Findings, Path
-from bbsd.expression.tree import Span
+from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.spec.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Findings, Path
 
 OPEN_CELL = 255
 NO_ACTION = 0
+MAX_LOOKED_AT = 30_000_000
 
 Inputs = Mapping[str, tuple[str, ...]]
 """Each input's cells, in the order of the table's dimensions."""
@@ -22,7 +25,7 @@ Inputs = Mapping[str, tuple[str, ...]]
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table's cells in row-major order of the inputs: 0 for No Action, k for the k-th action, 255 for open."""
+    """A table's cells in row-major order of the inputs: 0: No Action, k: the k-th action, 255: open."""
 
     given: bytes
 
@@ -32,55 +35,111 @@ class Table:
         return OPEN_CELL in self.given
 
 
-def table(rules: Sequence[Rule] | None, inputs: Inputs, actions: Sequence[str], path: Path, findings: Findings) -> Table:
-    """The cells that rules decide, the first match first; mistakes are told and the rule is passed over."""
+def table(
+    rules: Sequence[Rule] | None,
+    inputs: Inputs,
+    actions: Sequence[str],
+    path: Path,
+    findings: Findings,
+    unusable: Collection[str] = (),
+) -> Table:
+    """The cells that rules decide, the first match first; mistakes are told and the rule is passed over.
+
+    Nothing is said about the `unusable` names, whose own mistakes were told before.
+    """
+    decided = decisions(rules, actions, path, findings, unusable)
     sizes = [len(cells) for cells in inputs.values()]
-    decided: dict[tuple[int, ...], int] = {}
-    for place, rule in enumerate(rules or ()):
-        decision = _decision(rule, actions, (*path, place), findings)
-        matched = _matched(rule, inputs, (*path, place), findings)
+    given, undecided, looked_at = bytearray([OPEN_CELL]) * prod(sizes), bytearray([1]) * prod(sizes), 0
+    for place, (rule, decision) in enumerate(zip(rules or (), decided, strict=True)):
+        matched = _matched(rule, inputs, (*path, place), findings, unusable)
         if decision is None or matched is None:
             continue
-        fresh = [cells for cells in product(*matched) if cells not in decided]
+        looked_at += prod(len(cells) for cells in matched)
+        if looked_at > MAX_LOOKED_AT:
+            findings.tell(
+                path, "BB039", f"these rules match more than {MAX_LOOKED_AT} cells, one by one", KEY
+            )
+            break
+        fresh = [cell for cell in _places(matched, sizes) if undecided[cell]]
         if not fresh:
-            _tell(findings, (*path, place), "BB037", "this rule never applies: the rules before it decide all its cells")
-        decided.update(dict.fromkeys(fresh, decision))
-    return Table(bytes(decided.get(cells, OPEN_CELL) for cells in product(*(range(size) for size in sizes))))
+            message = "this rule never applies: the rules before it decide all its cells"
+            findings.tell((*path, place), "BB037", message)
+        for cell in fresh:
+            given[cell], undecided[cell] = decision, 0
+    return Table(bytes(given))
 
 
-def _tell(findings: Findings, path: Path, code: str, message: str, advice: str = "") -> None:
-    findings.mistakes[path, Mistake(code, message, Span(0, 0), advice)] = None
+def _places(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> list[int]:
+    """Where the cells of a block stand in row-major order."""
+    places = [0]
+    for cells, size in zip(matched, sizes, strict=True):
+        places = [place * size + cell for place in places for cell in cells]
+    return places
 
 
-def _decision(rule: Rule, actions: Sequence[str], path: Path, findings: Findings) -> int | None:
+def decisions(
+    rules: Sequence[Rule] | None,
+    actions: Sequence[str],
+    path: Path,
+    findings: Findings,
+    unusable: Collection[str] = (),
+) -> list[int | None]:
+    """What each rule decides, as a cell holds it; None where that is no action."""
+    return [
+        _decision(rule, actions, (*path, place), findings, unusable) for place, rule in enumerate(rules or ())
+    ]
+
+
+def _decision(
+    rule: Rule, actions: Sequence[str], path: Path, findings: Findings, unusable: Collection[str]
+) -> int | None:
     key, word = ("otherwise", rule.otherwise) if isinstance(rule, Otherwise) else ("do", rule.do)
     if word in (NO_ACTION_TEXT, OPEN):
         return NO_ACTION if word == NO_ACTION_TEXT else OPEN_CELL
     if word in actions:
         return actions.index(word) + 1
-    hint = did_you_mean(word, [*actions, NO_ACTION_TEXT, OPEN])
-    _tell(findings, (*path, key), "BB036", f'"{word}" is not an action of this behavior{hint}', f"its actions: {', '.join(actions)}")
+    if word not in unusable and not any(action in unusable for action in actions):
+        hint = did_you_mean(word, [*actions, NO_ACTION_TEXT, OPEN])
+        message, advice = (
+            f'"{word}" is not an action of this behavior{hint}',
+            f"its actions: {', '.join(actions)}" if actions else "",
+        )
+        findings.tell((*path, key), "BB036", message, WHOLE, advice)
     return None
 
 
-def _matched(rule: Rule, inputs: Inputs, path: Path, findings: Findings) -> list[list[int]] | None:
+def _matched(
+    rule: Rule, inputs: Inputs, path: Path, findings: Findings, unusable: Collection[str]
+) -> list[Sequence[int]] | None:
     """For each input, the cells that the rule matches; None after a mistake."""
     when = {} if isinstance(rule, Otherwise) else rule.when
-    correct = True
-    for name in when.keys() - inputs.keys():
-        hint = did_you_mean(name, inputs) or (f"; its inputs: {', '.join(inputs)}" if inputs else "; it has none")
-        _tell(findings, (*path, "when", name), "BB034", f'"{name}" is not an input of this behavior{hint}')
-        correct = False
-    matched = []
-    for name, cells in inputs.items():
-        named = [_cells(word, cells) for word in when.get(name, [])]
-        for place, (word, found) in enumerate(zip(when.get(name, []), named, strict=True)):
-            if found is None:
-                message = f'"{word}" is not a cell of {name}{did_you_mean(word, cells)}'
-                _tell(findings, (*path, "when", name, place), "BB035", message, _cells_advice(cells))
-                correct = False
-        matched.append(sorted({cell for found in named for cell in found or ()}) if name in when else list(range(len(cells))))
-    return matched if correct else None
+    for name in when:
+        if name not in inputs and name not in unusable:
+            hint = did_you_mean(name, inputs) or f"; {_inputs_named(inputs)}"
+            message = f'"{name}" is not an input of this behavior{hint}'
+            findings.tell((*path, "when", name), "BB034", message, KEY)
+    matched = [_cells_matched(name, cells, when, path, findings) for name, cells in inputs.items()]
+    understood = [cells for cells in matched if cells is not None]
+    return understood if when.keys() <= inputs.keys() and len(understood) == len(matched) else None
+
+
+def _inputs_named(inputs: Inputs) -> str:
+    return f"its inputs: {', '.join(inputs)}" if inputs else "it has none"
+
+
+def _cells_matched(
+    name: str, cells: tuple[str, ...], when: Mapping[str, list[str]], path: Path, findings: Findings
+) -> Sequence[int] | None:
+    if name not in when:
+        return range(len(cells))
+    named = [_cells(word, cells) for word in when[name]]
+    for place, (word, found) in enumerate(zip(when[name], named, strict=True)):
+        if found is None:
+            message = f'"{word}" is not a cell of {name}{did_you_mean(word, cells)}'
+            findings.tell((*path, "when", name, place), "BB035", message, WHOLE, _cells_advice(cells))
+    if None in named:
+        return None
+    return sorted({cell for found in named for cell in found or ()})
 
 
 def _cells_advice(cells: tuple[str, ...]) -> str:

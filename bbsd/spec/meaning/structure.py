@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.mistakes import Mistake
-from bbsd.expression.scope import Findings, Path
-from bbsd.expression.tree import Span
 from bbsd.spec.models import OPEN, Spec
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Findings
 
 OPEN_LAYER = -1
 
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """Layers from the lowest up (2): a behavior's index, or -1 where open; and the behaviors that may fill the open ones."""
+    """Layers from the lowest up (2): a behavior's index or -1 for open, and who may fill the open ones."""
 
     layers: tuple[int, ...]
     candidates: tuple[int, ...]
@@ -34,15 +35,18 @@ def structure(spec: Spec, findings: Findings, broken: frozenset[str] = frozenset
         layers = spec.design.layers or len(behaviors)
         if layers > len(behaviors) and not broken:
             message = f"{layers} layers, but only {len(behaviors)} behaviors, each of which can stand once"
-            _tell(findings, ("design", "layers"), message)
+            findings.tell(("design", "layers"), "BB042", message)
         return _settled((OPEN_LAYER,) * min(layers, len(behaviors)), everyone)
-    given = [_layer(word, place, spec, findings, broken) for place, word in enumerate(spec.structure)]
     if not spec.structure:
-        _tell(findings, ("structure",), "a structure without layers; leave the key out to have it learned")
+        findings.tell(
+            ("structure",), "BB042", "a structure without layers; leave the key out to have it learned"
+        )
+    given = [_layer(word, place, spec, findings, broken) for place, word in enumerate(spec.structure)]
     candidates = tuple(behavior for behavior in everyone if behavior not in given)
     if given.count(OPEN_LAYER) > len(candidates) and not broken:
-        _tell(findings, ("structure",), f"{given.count(OPEN_LAYER)} open layers, but {len(candidates)} behaviors to fill them")
-    return _settled(tuple(reversed(given)), candidates)
+        message = f"{given.count(OPEN_LAYER)} open layers, but {len(candidates)} behaviors to fill them"
+        findings.tell(("structure",), "BB042", message)
+    return _settled(tuple(layer for layer in reversed(given) if layer is not None), candidates)
 
 
 def _settled(layers: tuple[int, ...], candidates: tuple[int, ...]) -> Structure:
@@ -52,18 +56,17 @@ def _settled(layers: tuple[int, ...], candidates: tuple[int, ...]) -> Structure:
     return Structure(layers, candidates)
 
 
-def _layer(word: str, place: int, spec: Spec, findings: Findings, broken: frozenset[str]) -> int:
-    assert spec.structure is not None
+def _layer(word: str, place: int, spec: Spec, findings: Findings, broken: frozenset[str]) -> int | None:
+    """The behavior of a layer; None after a mistake."""
+    behaviors, path = list(spec.behaviors), ("structure", place)
     if word == OPEN:
         return OPEN_LAYER
-    if word not in spec.behaviors:
+    if word not in behaviors:
         if word not in broken:
-            _tell(findings, ("structure", place), f'"{word}" is not a behavior{did_you_mean(word, [*spec.behaviors, OPEN])}')
-        return OPEN_LAYER
-    if word in spec.structure[:place]:
-        _tell(findings, ("structure", place), f"{word} stands in the structure twice")
-    return list(spec.behaviors).index(word)
-
-
-def _tell(findings: Findings, path: Path, message: str) -> None:
-    findings.mistakes[path, Mistake("BB042", message, Span(0, 0))] = None
+            message = f'"{word}" is not a behavior{did_you_mean(word, [*behaviors, OPEN])}'
+            findings.tell(path, "BB042", message)
+        return None
+    if word in (spec.structure or ())[:place]:
+        findings.tell(path, "BB042", f"{word} stands in the structure twice")
+        return None
+    return behaviors.index(word)

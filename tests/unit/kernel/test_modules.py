@@ -107,9 +107,8 @@ def test_an_unwritable_cache_is_replaced_for_the_process_with_one_notice(
     kernel = load_kernel(source_with("UNWRITABLE = 1"), "halves", ("half",), compiled=True)
     assert kernel.half(3.0) == 1.5
     assert cache_folder("kernels") == Path(os.environ["BBSD_CACHE_DIR"]) / "kernels"
-    assert capsys.readouterr().err.splitlines() == [
-        f"bbsd: cannot keep compiled code in {tmp_path}/file/cache; set BBSD_CACHE_DIR to a folder of your own"
-    ]
+    (notice,) = capsys.readouterr().err.splitlines()
+    assert notice.startswith(f"bbsd: cannot keep compiled code in {tmp_path}/file/cache; set BBSD_CACHE_DIR")
 
 
 def test_a_cache_that_others_can_write_is_not_used(cache: Path, capsys: pytest.CaptureFixture[str]) -> None:

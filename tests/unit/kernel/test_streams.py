@@ -115,7 +115,7 @@ def test_names_are_words_of_their_own() -> None:
 @given(st.integers(-(2**63), 2**63 - 1))
 def test_a_whole_number_s_word_is_its_twos_complement(number: int) -> None:
     assert streams.word_of(number) == number % 2**64
-    assert streams.word_of(np.int64(number)) == number % 2**64
+    assert streams.word_of(int(np.int64(number))) == number % 2**64
 
 
 def test_uniform_draws_fill_the_interval_evenly() -> None:

@@ -1,0 +1,276 @@
+"""The verbs: what the command line does, for programs."""
+
+from __future__ import annotations
+
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.architecture import Architecture, given_architecture, spec_changes
+from bbsd.compiler import Problem, compile_meaning
+from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.compiler.frame import Detail
+from bbsd.compiler.source import module_source
+from bbsd.errors import Diagnosis, SpecError
+from bbsd.evaluation import (
+    Evaluation,
+    Interval,
+    RewardNotFinite,
+    Trace,
+    agents_of,
+    detailed,
+    enumerated,
+    evaluation,
+    weighted_evaluation,
+)
+from bbsd.evaluation import trace as trace_episode
+from bbsd.explanation import Explanation
+from bbsd.explanation import explain as explain_architecture
+from bbsd.kernel.keys import keys
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.solver import run as runs
+from bbsd.solver.folder import Folder, identity, new_folder, old_folder
+from bbsd.solver.random_agents import random_agents
+from bbsd.solver.settings import settings_of
+from bbsd.spec.loading import Loaded
+from bbsd.spec.loading import check as check_source
+from bbsd.spec.loading import load as load_source
+from bbsd.spec.meaning import Meaning, seed_key
+from bbsd.text import Source, replace_blocks
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+EVALUATION = name_word("evaluation")
+
+Spec = str | Path | Loaded
+"""A spec's file, or one that is loaded."""
+
+
+class NothingToDesign(ValueError):
+    """A spec without holes."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """A design that was stopped; its state is in the folder and can be gone on from."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(str(folder))
+        self.folder = folder
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """What a design tells after each generation. Runs and generations count from 1."""
+
+    run: int
+    runs: int
+    generation: int
+    generations: int
+    mean: float
+    best: float
+    lifetime: float
+
+
+@dataclass(frozen=True, slots=True)
+class Designed:
+    """What a design came to."""
+
+    architecture: Path
+    folder: Path
+    structure: tuple[str, ...]
+    """Highest layer first."""
+    evaluation: Evaluation
+    """On episodes that took no part in choosing the design."""
+    lifetime: Interval
+    random: Interval
+    seconds: float
+
+    @property
+    def mean(self) -> float:
+        """The mean return of the design."""
+        return self.evaluation.mean
+
+    @property
+    def sd(self) -> float:
+        """The standard deviation of its return."""
+        return self.evaluation.sd
+
+    @property
+    def ci95(self) -> tuple[float, float]:
+        """The 95 % interval of its mean return."""
+        return self.evaluation.ci95
+
+    @property
+    def episodes(self) -> int:
+        """The episodes it was judged on."""
+        return self.evaluation.episodes
+
+
+def load(spec: Spec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
+    """Read and check a spec; draws in constants come from the seed.
+
+    Raises SpecError with all its mistakes.
+    """
+    return (
+        spec
+        if isinstance(spec, Loaded)
+        else load_source(Source.read(str(spec)), seed=seed, overrides=overrides)
+    )
+
+
+def check(spec: str | Path) -> tuple[Diagnosis, ...]:
+    """All mistakes in a spec, none if it is correct."""
+    try:
+        return check_source(Source.read(str(spec)))
+    except SpecError as error:
+        return error.diagnoses
+
+
+def compile(spec: Spec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
+    """The source of the kernel that a spec compiles to: a rollout for the solver and one for evaluation."""
+    meaning = load(spec, overrides=overrides).meaning
+    problem = compile_meaning(meaning)
+    return module_source(meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
+
+
+def evaluate(
+    spec: Spec,
+    *,
+    episodes: int = 1000,
+    seed: int = 0,
+    fill: str | None = None,
+    agents: int = 1000,
+    exact: bool = False,
+    lanes: int = DEFAULT_LANES,
+    overrides: Sequence[str] = (),
+) -> Evaluation:
+    """Let the design of a spec live episodes, the same ones for every spec and the same seed.
+
+    With fill="random" the holes are filled at random, by so many agents that live so many episodes each.
+    With `exact` every start is tried once. Raises HolesLeft for a spec with holes, NotEnumerable,
+    SpecError.
+    """
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = compile_meaning(loaded.meaning, lanes=lanes)
+    generation = loaded.spec.design.coevolution.generations
+    key = fold(seed_key(seed), EVALUATION)
+    with _reward_at_its_place(loaded):
+        if fill == "random":
+            lived = random_agents(problem, fold(key, name_word("agents")), agents)
+            return evaluation(problem, detailed(problem, lived, keys(key, 0, episodes), generation), agents)
+        lived = agents_of([given_architecture(problem)])
+        if exact:
+            problem, weights = enumerated(problem)
+            starts = np.arange(len(weights), dtype=np.uint64)
+            return weighted_evaluation(problem, detailed(problem, lived, starts, generation), weights)
+        return evaluation(problem, detailed(problem, lived, keys(key, 0, episodes), generation), 1)
+
+
+def trace(spec: Spec, *, seed: int = 0, episode: int = 0, overrides: Sequence[str] = ()) -> Trace:
+    """One of the episodes that `evaluate` lives, step by step; raises as `evaluate`."""
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = compile_meaning(loaded.meaning, compiled=False)
+    key = fold(fold(seed_key(seed), EVALUATION), word_of(episode))
+    return trace_episode(
+        problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
+    )
+
+
+def explain(spec: Spec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Explanation:
+    """What the design of a spec does, layer by layer. Raises HolesLeft for a spec with holes, SpecError."""
+    meaning = load(spec, seed=seed, overrides=overrides).meaning
+    return explain_architecture(meaning, given_architecture(compile_meaning(meaning)))
+
+
+def design(
+    spec: Spec,
+    *,
+    seed: int = 0,
+    runs: int = 1,
+    out: str | Path | None = None,
+    resume: bool = False,
+    lanes: int = DEFAULT_LANES,
+    overrides: Sequence[str] = (),
+    progress: Callable[[Progress], None] | None = None,
+) -> Designed:
+    """Fill the holes of a spec and write what came of it into a folder.
+
+    The same spec, seed, runs and settings give the same bytes of `architecture.yaml` and `metrics.jsonl`,
+    however often the run was stopped and gone on with (`resume`), and for any number of lanes. Raises
+    NothingToDesign, SpecError, FolderError, and Interrupted, after which `resume` goes on.
+    """
+    began = time.monotonic()
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = compile_meaning(loaded.meaning, lanes=lanes)
+    if not problem.has_holes:
+        raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
+    folder = _folder(
+        loaded, seed, runs, Path(out) if out else None, resume=resume, overrides=tuple(overrides)
+    )
+    with _reward_at_its_place(loaded):
+        try:
+            judged = _run(loaded, problem, folder, seed, runs, progress)
+        except KeyboardInterrupt:
+            raise Interrupted(folder.path) from None
+    folder.architecture.write_text(
+        designed_text(loaded, problem.meaning, judged.architecture), encoding="utf-8"
+    )
+    names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
+    seconds = time.monotonic() - began
+    return Designed(
+        folder.architecture, folder.path, names, judged.evaluation, judged.lifetime, judged.random, seconds
+    )
+
+
+def designed_text(loaded: Loaded, meaning: Meaning, architecture: Architecture) -> str:
+    """The designer's file with its holes filled; everything else is as it was."""
+    return replace_blocks(loaded.document, spec_changes(meaning, architecture), after="behaviors")
+
+
+def _folder(
+    loaded: Loaded, seed: int, n_runs: int, out: Path | None, *, resume: bool, overrides: tuple[str, ...]
+) -> Folder:
+    who = identity(loaded.source.text, overrides, seed, n_runs)
+    name = Path(loaded.source.file).stem
+    if resume:
+        return old_folder(out, name, seed, who)
+    folder = new_folder(out, name, seed)
+    (folder.path / "spec.yaml").write_text(loaded.source.text, encoding="utf-8")
+    folder.write_note(who)
+    return folder
+
+
+def _run(
+    loaded: Loaded,
+    problem: Problem,
+    folder: Folder,
+    seed: int,
+    n_runs: int,
+    tell: Callable[[Progress], None] | None,
+) -> runs.Judgement:
+    settings = settings_of(loaded.meaning)
+    reached = folder.progress() or runs.start(problem, settings, seed)
+    for progress, line in runs.generations(reached, problem, settings, seed, n_runs):
+        reached = progress
+        folder.save(progress, line)
+        if tell is not None and line is not None:
+            figures = (line["mean"], line["best"], line["lifetime"])
+            tell(
+                Progress(line["run"], n_runs, line["generation"], settings.coevolution.generations, *figures)
+            )
+    return runs.judge(reached, problem, settings, seed)
+
+
+@contextmanager
+def _reward_at_its_place(loaded: Loaded) -> Iterator[None]:
+    """Tells of a reward that is not finite at the term's place in the spec."""
+    try:
+        yield
+    except RewardNotFinite as error:
+        place = loaded.document.place(("reward", error.term))
+        raise SpecError((Diagnosis("BB045", str(error), place),), loaded.source) from None

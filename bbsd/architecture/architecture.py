@@ -1,0 +1,62 @@
+"""An architecture (3): what was given or learned, tables and a structure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.spec.meaning.rules import NO_ACTION, OPEN_CELL
+from bbsd.spec.meaning.structure import OPEN_LAYER
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from bbsd.compiler import Problem
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Architecture:
+    """A table for each behavior (n_cells,), in the spec's order, and a structure (n_layers,), lowest layer first."""
+
+    tables: tuple[NDArray[np.uint8], ...]
+    structure: NDArray[np.int64]
+
+
+class HolesLeft(ValueError):
+    """A design was wanted, and the spec leaves something open."""
+
+
+def given_architecture(problem: Problem) -> Architecture:
+    """The architecture that a spec without holes gives.
+
+    Open cells of a behavior that the given structure leaves out are no holes; they become No Action.
+
+    Raises:
+        HolesLeft: something is open; the message says what.
+    """
+    if found := holes(problem):
+        raise HolesLeft("; ".join(found))
+    tables = [
+        np.where(table.given == OPEN_CELL, NO_ACTION, table.given).astype(np.uint8)
+        for table in problem.tables
+    ]
+    return Architecture(tuple(tables), problem.layers)
+
+
+def holes(problem: Problem) -> list[str]:
+    """What a spec leaves to be designed, in words: `stop: 2 of 2 cells open`, `5 of 5 layers open`."""
+    layers = problem.layers.tolist()
+    n_open = layers.count(OPEN_LAYER)
+    concerned = [table for index, table in enumerate(problem.tables) if n_open or index in layers]
+    cells = [
+        f"{table.name}: {table.n_open} of {_counted(table.n_cells, 'cell')} open"
+        for table in concerned
+        if table.n_open
+    ]
+    return cells + ([f"{n_open} of {_counted(len(layers), 'layer')} open"] if n_open else [])
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"

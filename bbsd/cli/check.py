@@ -1,0 +1,84 @@
+"""`bbsd check`."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bbsd.cli.mistakes import MISTAKE, diagnoses_text
+from bbsd.cli.options import AsFormat, Format
+from bbsd.cli.output import has_color, show
+from bbsd.errors import KINDS, SpecError, describe, did_you_mean, render_json
+from bbsd.report.numbers import count
+from bbsd.report.plain import json_text
+
+
+def check(
+    specs: Annotated[
+        list[Path] | None, typer.Argument(metavar="SPEC...", help="Specs, YAML files.", show_default=False)
+    ] = None,
+    form: AsFormat = Format.TEXT,
+    code: Annotated[
+        str | None,
+        typer.Option("--describe", metavar="CODE", help="Describe a kind of mistake, such as BB006."),
+    ] = None,
+) -> None:
+    """Say all that is wrong with specs.
+
+    Leaves with 2 if anything is.
+    """
+    if code is not None:
+        show(_described(code))
+    elif specs:
+        _check(specs, form)
+    else:
+        raise typer.BadParameter("give a SPEC, or --describe CODE")
+
+
+def _check(specs: list[Path], form: Format) -> None:
+    found = [(spec, *_checked(spec)) for spec in specs]
+    errors = [error for _, _, error in found if error]
+    if form is Format.JSON:
+        show(json_text(render_json(each for error in errors for each in error.diagnoses)))
+    else:
+        show("\n".join(_verdict(*each) for each in found))
+    if errors:
+        raise typer.Exit(MISTAKE)
+
+
+def _checked(spec: Path) -> tuple[str, SpecError | None]:
+    """Return how large the spec is, or what is wrong with it."""
+    from bbsd.report.size import size_text
+    from bbsd.spec.loading import load
+    from bbsd.text import Source
+
+    try:
+        return size_text(load(Source.read(spec)).meaning), None
+    except SpecError as error:
+        return "", error
+
+
+def _verdict(spec: Path, size: str, error: SpecError | None) -> str:
+    if error is None:
+        return f"{spec}: ok ({size})"
+    diagnoses = diagnoses_text(error.diagnoses, error.source, color=has_color(sys.stdout))
+    return f"{diagnoses}\n\n{count(len(error.diagnoses), 'mistake')} in {spec}"
+
+
+def _described(code: str) -> str:
+    try:
+        kind = describe(code)
+    except KeyError:
+        raise typer.BadParameter(f"there is no code {code}{did_you_mean(code.upper(), KINDS)}") from None
+    parts = [
+        f"{kind.code}: {kind.title}",
+        kind.explanation,
+        f"Such as:\n\n{_indented(kind.example)}",
+        f"Instead:\n\n{_indented(kind.mend)}",
+    ]
+    return "\n\n".join(parts)
+
+
+def _indented(text: str) -> str:
+    return "\n".join(f"    {line}" for line in text.splitlines())

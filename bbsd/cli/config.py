@@ -1,0 +1,16 @@
+"""`bbsd config`."""
+
+from bbsd.cli.options import Overrides, SpecFile
+from bbsd.cli.output import show
+
+
+def config(spec: SpecFile, overrides: Overrides = None) -> None:
+    """Print a spec with all defaults filled in.
+
+    Comments say where each value comes from: a line of the file, a default, or --set.
+    """
+    from bbsd.report.configuration import configuration_text
+    from bbsd.spec.loading import load
+    from bbsd.text import Source
+
+    show(configuration_text(load(Source.read(spec), overrides=overrides or ())))

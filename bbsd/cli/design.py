@@ -1,0 +1,87 @@
+"""`bbsd design`."""
+
+import shlex
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
+from bbsd.cli.output import error_console, say, show, show_table
+from bbsd.report.figures import curves
+from bbsd.report.plain import design_plain, json_text
+
+if TYPE_CHECKING:
+    from bbsd.api import Designed
+
+INTERRUPTED = 130
+
+
+def design(
+    spec: SpecFile,
+    seed: Seed = 0,
+    runs: Annotated[int, typer.Option(metavar="N", min=1, help="Runs; the best design of all is kept.")] = 1,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="The folder to write, new or empty.", show_default="runs/SPEC-seedN"
+        ),
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
+    lanes: Lanes = 40,
+    overrides: Overrides = None,
+    as_json: AsJson = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing of the progress.")] = False,
+) -> None:
+    """Fill the holes of a spec.
+
+    Evolves the behaviors, learns the structure, and writes the spec with both in it into a run's folder,
+    beside the metrics of each generation and the state from which a stopped run goes on.
+    """
+    from bbsd import api
+    from bbsd.report.progress import progress
+
+    try:
+        with progress(error_console(), quiet=quiet) as listener:
+            designed = api.design(
+                spec,
+                seed=seed,
+                runs=runs,
+                out=out,
+                resume=resume,
+                lanes=lanes,
+                overrides=overrides or (),
+                progress=listener,
+            )
+    except api.Interrupted as stopped:
+        say(f"stopped; what was done is kept in {stopped.folder}. To go on: {_resuming(stopped.folder)}")
+        raise typer.Exit(INTERRUPTED) from None
+    _draw_curves(designed)
+    _show(designed, seed, runs, as_json=as_json)
+
+
+def _resuming(folder: Path) -> str:
+    """Return the command that goes on: the one given, in that folder."""
+    given = [word for word in sys.argv[1:] if word != "--resume"]
+    named = any(word.partition("=")[0] == "--out" for word in given)
+    return shlex.join(["bbsd", *given, *([] if named else ["--out", str(folder)]), "--resume"])
+
+
+def _draw_curves(designed: "Designed") -> None:
+    """Draw the metrics beside them, where matplotlib is installed."""
+    from bbsd.solver.folder import Folder
+
+    if find_spec("matplotlib") is not None:
+        folder = Folder(designed.folder)
+        curves(folder.lines(), folder.figure)
+
+
+def _show(designed: "Designed", seed: int, runs: int, *, as_json: bool) -> None:
+    if as_json:
+        show(json_text(design_plain(designed, seed, runs)))
+        return
+    from bbsd.report.tables import design_table
+
+    show_table(design_table(designed))

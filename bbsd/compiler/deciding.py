@@ -1,0 +1,137 @@
+"""The decision (1), (2) without branches: every activated behavior bids its layer, and the highest bid controls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from bbsd.expression.graph import Level
+
+if TYPE_CHECKING:
+    from bbsd.compiler.emission import Emitter
+    from bbsd.compiler.frame import Frame
+
+ACTION_BITS = 16
+"""A priority is the layer shifted by so many bits, plus what makes a choice the action's number."""
+
+
+@dataclass
+class Decision:
+    """Writes how each robot's controlling action is found."""
+
+    frame: Frame
+
+    @cached_property
+    def kept(self) -> list[tuple[str, str]]:
+        """For each behavior the arrays of its priority, and of its table: a word, or where its row of cells begins."""
+        keep = self.frame.keep_integer
+        pairs = zip(self.frame.episode.modules, self.frame.shapes, strict=True)
+        return [
+            (keep(f"priority_{module.name}"), keep(f"{'table' if shape.packed else 'row'}_{module.name}"))
+            for module, shape in pairs
+        ]
+
+    def start(self) -> list[str]:
+        """Every lane's priorities and tables: lanes refer to individuals of the pools."""
+        lines = []
+        for index, (shape, (priority, table)) in enumerate(zip(self.frame.shapes, self.kept, strict=True)):
+            individual = f"individuals[{index}, base + lane]"
+            row = f"origins[{index}] + {individual} * {shape.n_cells}"
+            lines.append(f"{priority}[lane] = priorities[{index}, base + lane]")
+            lines.append(f"{table}[lane] = {f'words[{index}, {individual}]' if shape.packed else row}")
+        return lines
+
+    def look_up(self) -> list[str]:
+        """Tables too large for a word: their cells in one loop, the look-ups in another that does not vectorize."""
+        if not self._looked_up:
+            return []
+        frame, emitter = self.frame, self.frame.emitter("step", hinted=False)
+        large = {index for index, _ in self._looked_up}
+        emitter.prepare(
+            node for index in large for robot in frame.episode.modules[index].cells for node in robot
+        )
+        stores, looks = [], []
+        for (index, robot), (cell, choice) in self._looked_up.items():
+            stores.append(f"{cell}[lane] = {self._cell(index, robot, emitter)}")
+            looks.append(f"{choice}[lane] = tables[{self.kept[index][1]}[lane] + {cell}[lane]]")
+        lane = [*emitter.blocks[Level.LANE].lines, *stores]
+        return [*emitter.blocks[Level.STEP].lines, *frame.lane_loop(lane), *frame.lane_loop(looks)]
+
+    @cached_property
+    def _looked_up(self) -> dict[tuple[int, int], tuple[str, str]]:
+        """For each behavior with a large table and each robot, the arrays of its cell and its choice."""
+        frame = self.frame
+        return {
+            (index, robot): (
+                frame.keep_integer(frame.robots_name(f"cell_{shape.name}", robot)),
+                frame.keep_integer(frame.robots_name(f"choice_{shape.name}", robot)),
+            )
+            for index, shape in enumerate(frame.shapes)
+            for robot in range(frame.robots)
+            if not shape.packed
+        }
+
+    def decide(self, robot: int, emitter: Emitter) -> None:
+        """Find the number of the action that controls a robot; 0 is nobody's."""
+        call = self.frame.call_of
+        highest, *bids = [self._bid(index, robot, emitter) for index in range(len(self.frame.shapes))]
+        for bid in bids:
+            highest = call("maximum", highest, bid)
+        mask = (1 << ACTION_BITS) - 1
+        emitter.blocks[Level.LANE].lines.append(
+            f"{self.frame.actions[robot]} = {call('maximum', highest, '0')} & {mask}"
+        )
+
+    def _bid(self, index: int, robot: int, emitter: Emitter) -> str:
+        """What a behavior bids for control: its priority and its choice; 0 where it is not activated."""
+        frame, module = self.frame, self.frame.episode.modules[index]
+        lines = emitter.blocks[Level.LANE].lines
+        looked = self._choice(index, robot, emitter)
+        choice = frame.namer(frame.robots_name(f"choice_{module.name}", robot))
+        lines.append(f"{choice} = {looked}")
+        excited = emitter.value(module.excited[robot])
+        active = f"{choice} > 0" if excited == "True" else f"({choice} > 0) & ({excited})"
+        bid = frame.namer(frame.robots_name(f"bid_{module.name}", robot))
+        lines.append(
+            f"{bid} = {frame.call_of('select', active, f'{self.kept[index][0]}[lane] + {choice}', '0')}"
+        )
+        return bid
+
+    def _choice(self, index: int, robot: int, emitter: Emitter) -> str:
+        """The value of the behavior's table at the robot's cell."""
+        shape = self.frame.shapes[index]
+        if not shape.packed:
+            return f"{self._looked_up[index, robot][1]}[lane]"
+        table, cell = self.kept[index][1], self._cell(index, robot, emitter)
+        if cell == "0":
+            return f"{table}[lane] & {shape.mask}"
+        shift = cell if shape.bits == 1 else f"{_grouped(cell)} * {shape.bits}"
+        return f"({table}[lane] >> {_grouped(shift)}) & {shape.mask}"
+
+    def _cell(self, index: int, robot: int, emitter: Emitter) -> str:
+        """The index of the table's cell: row-major over the inputs."""
+        module, text = self.frame.episode.modules[index], ""
+        for node, labels in zip(module.cells[robot], module.inputs.values(), strict=True):
+            part = emitter.operand(node, tight=bool(text))
+            text = f"{_grouped(text)} * {len(labels)} + {part}" if text else part
+        return text or "0"
+
+    def controls(self, index: int, robot: int) -> str:
+        """Whether a behavior controls a robot; the index after the last behavior's is nobody's."""
+        counts = [shape.n_actions for shape in self.frame.shapes]
+        action = self.frame.actions[robot]
+        if index == len(counts):
+            return f"{action} == 0"
+        first = [1, *accumulate(counts, initial=1)][index + 1]
+        return (
+            f"{action} == {first}"
+            if counts[index] == 1
+            else f"({action} >= {first}) & ({action} < {first + counts[index]})"
+        )
+
+
+def _grouped(text: str) -> str:
+    """The text as an operand of whatever binds more tightly."""
+    return f"({text})" if " + " in text or " * " in text else text

@@ -1,0 +1,12 @@
+"""Episodes of finished designs, and their statistics."""
+
+from bbsd.evaluation.enumeration import NotEnumerable, enumerated
+from bbsd.evaluation.episodes import Agents, agents_of, detailed, returns_of
+from bbsd.evaluation.finite import RewardNotFinite, require_finite
+from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interval, weighted_evaluation
+from bbsd.evaluation.tracing import Trace, trace
+
+__all__ = [
+    "Agents", "Evaluation", "Interval", "NotEnumerable", "RewardNotFinite", "Trace", "agents_of", "detailed",
+    "enumerated", "evaluation", "interval", "require_finite", "returns_of", "trace", "weighted_evaluation",
+]  # fmt: skip

@@ -1,0 +1,90 @@
+"""Exact evaluation: where only starting values are drawn, and from finitely many, every start is tried once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from bbsd.expression.graph import Graph, Kind, Level, Node, needed, rebuilt, value_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bbsd.compiler import Problem
+
+MAX_STARTS = 1_000_000
+
+
+class NotEnumerable(ValueError):
+    """Why the starts of a spec cannot all be tried."""
+
+
+def enumerated(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]]:
+    """A problem whose n-th start is chosen by the key n, and the probability of each start (n_starts,).
+
+    Raises NotEnumerable where something is drawn after the start, from a continuous range, or from too many values.
+    """
+    graph, episode = problem.meaning.graph, problem.meaning.episode
+    later = [*episode.after.values(), *(node for nodes in episode.reward.values() for node in nodes)]
+    if _draws(later):
+        raise NotEnumerable("values are drawn during the episode, not only at its start")
+    draws = _draws(episode.start.values())
+    choices = [_choices(draw) for draw in draws]
+    total = int(np.prod([len(weights) for _, weights in choices], dtype=np.float64)) if choices else 1
+    if total > MAX_STARTS:
+        raise NotEnumerable(f"there are {total} starts; at most {MAX_STARTS} are tried")
+    chosen, weights = _combined(draws, choices, total, graph)
+    start = {slot: _with(node, chosen, graph) for slot, node in episode.start.items()}
+    meaning = replace(problem.meaning, episode=replace(episode, start=start))
+    return replace(problem, meaning=meaning), weights
+
+
+def _draws(nodes: Iterable[Node]) -> list[Node]:
+    return [node for node in needed(nodes) if node.operation == "draw"]
+
+
+def _choices(draw: Node) -> tuple[float, list[float]]:
+    """The first value of a draw and the probabilities of it and those that follow."""
+    distribution, _ = cast("tuple[str, int]", draw.data)
+    if distribution not in ("integers", "chance") or not all(operand.literal for operand in draw.operands):
+        raise NotEnumerable(f"a start is drawn by {distribution}(...), which has no finite list of values")
+    values = [float(value_of(operand)) for operand in draw.operands]
+    if distribution == "chance":
+        return 0.0, [1.0 - values[0], values[0]]
+    count = max(int(values[1] - values[0]) + 1, 1)
+    return values[0], [1.0 / count] * count
+
+
+def _combined(
+    draws: list[Node], choices: list[tuple[float, list[float]]], total: int, graph: Graph
+) -> tuple[dict[int, Node], npt.NDArray[np.float64]]:
+    """Each draw as a digit of the start's number, and the starts' probabilities."""
+    number = graph.leaf("start", None, Kind.NUMBER, Level.LANE)
+    found, weights, stride = {}, np.ones(total), 1
+    for draw, (first, probabilities) in zip(draws, choices, strict=True):
+        digit = graph.apply(
+            "modulo",
+            graph.apply("floor_divide", number, graph.number(stride)),
+            graph.number(len(probabilities)),
+        )
+        value = graph.apply("+", digit, graph.number(first)) if first else digit
+        found[draw.number] = graph.apply(">", value, graph.number(0)) if draw.kind is Kind.TRUTH else value
+        weights *= np.array(probabilities)[np.arange(total) // stride % len(probabilities)]
+        stride *= len(probabilities)
+    return found, weights
+
+
+def _with(node: Node, chosen: dict[int, Node], graph: Graph) -> Node:
+    return rebuilt(
+        node, graph, lambda leaf, operands: chosen.get(leaf.number) or _copied(leaf, operands, graph)
+    )
+
+
+def _copied(leaf: Node, operands: list[Node], graph: Graph) -> Node:
+    if leaf.operation == "gather":
+        base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", leaf.data)
+        return graph.gather(base, strides, lengths, tuple(operands))
+    return leaf

@@ -1,0 +1,118 @@
+"""One episode, step by step: everything that was stored, defined, controlled and earned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from bbsd.compiler.naming import slot_text
+from bbsd.compiler.frame import Detail
+from bbsd.compiler.source import module_source, traced_columns
+from bbsd.kernel.modules import load_kernel
+from bbsd.spec.meaning.partitions import is_partition
+
+if TYPE_CHECKING:
+    from bbsd.architecture import Architecture
+    from bbsd.compiler import Problem
+    from bbsd.spec.meaning.names import Slot
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trace:
+    """An episode as columns of equal length, one entry a step.
+
+    `values` are world, state, sensors and definitions after the step, `controlling[robot]` the names of the controlling
+    behaviors, `actions[robot]` their actions, `rewards[term][robot]` what each term gave.
+    """
+
+    steps: npt.NDArray[np.int64]
+    values: dict[Slot, list[float | str]]
+    controlling: list[list[str]]
+    actions: list[list[str]]
+    rewards: dict[str, list[Floats]]
+    robots: int
+
+    @property
+    def columns(self) -> list[str]:
+        """The columns' names, `step` first; with several robots each name ends in the robot's index."""
+        robots = range(self.robots)
+        return [
+            "step",
+            *(slot_text(slot, self.robots) for slot in self.values),
+            *(
+                slot_text((what, robot, ()), self.robots)
+                for robot in robots
+                for what in ("controlling", "action")
+            ),
+            *(
+                slot_text((f"reward_{term}", robot, ()), self.robots)
+                for term in self.rewards
+                for robot in robots
+            ),
+        ]
+
+    @property
+    def rows(self) -> list[tuple[int | float | str, ...]]:
+        """One tuple a step, in the order of the columns."""
+        columns: list[list[int | float | str]] = [
+            [int(step) for step in self.steps],
+            *(list(values) for values in self.values.values()),
+            *(
+                [*words]
+                for robot in range(self.robots)
+                for words in (self.controlling[robot], self.actions[robot])
+            ),
+            *([*values.tolist()] for robots in self.rewards.values() for values in robots),
+        ]
+        return list(zip(*columns, strict=True))
+
+
+def trace(problem: Problem, architecture: Architecture, key: int, generation: int) -> Trace:
+    """Live one episode as plain Python and note everything."""
+    meaning, steps = problem.meaning, problem.meaning.spec.environment.steps
+    columns = traced_columns(meaning)
+    source = module_source(meaning, problem.tables, 1, (Detail.TRACE,))
+    rollout = load_kernel(source, "trace", (), compiled=False).rollout_traced
+    record = np.full((steps, len(columns)), np.nan)
+    pools = tuple(table[None] for table in architecture.tables)
+    members = np.zeros((1, problem.n_behaviors), np.int64)
+    team = problem.assemble(pools, members, generation)
+    taken = team.traced_episode(rollout, key, architecture.structure, record)
+    return _read(problem, columns, record[:taken])
+
+
+def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> Trace:
+    names = [("nobody", "")]
+    names += [
+        (behavior.name, action) for behavior in problem.meaning.episode.modules for action in behavior.actions
+    ]
+    values: dict[Slot, list[float | str]] = {}
+    controlling: list[list[str]] = []
+    actions: list[list[str]] = []
+    rewards: dict[str, list[Floats]] = {}
+    for (what, slot), column in zip(columns, record.T, strict=True):
+        if what == "choice":
+            controlling.append([names[int(number)][0] for number in column])
+            actions.append([names[int(number)][1] for number in column])
+        elif what == "reward":
+            rewards.setdefault(slot[0], []).append(column)
+        else:
+            cells = _cells_of(problem, slot)
+            values[slot] = (
+                [cells[int(value)] for value in column] if cells else [float(value) for value in column]
+            )
+    robots = problem.meaning.spec.environment.robots
+    return Trace(np.arange(1, len(record) + 1), values, controlling, actions, rewards, robots)
+
+
+def _cells_of(problem: Problem, slot: Slot) -> tuple[str, ...]:
+    """The cells' names of a sensor that is a partition, as the behavior that sees it has them."""
+    written = problem.meaning.spec.environment.sensors.get(slot[0])
+    if written is None or not is_partition(written):
+        return ()
+    return problem.meaning.episode.partitions.get(slot[0], ())

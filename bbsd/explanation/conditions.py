@@ -1,0 +1,56 @@
+"""Conditions in words: where an input has certain cells."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.architecture.boxes import FREE, KEEP, cover
+from bbsd.architecture.rules import cell_words, sizes_of
+from bbsd.spec.meaning.partitions import TRUTH_CELLS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from bbsd.architecture.boxes import Box
+    from bbsd.spec.meaning.rules import Inputs
+
+
+def condition(box: Box, inputs: Inputs) -> str:
+    """What is true in a box: `place is lowest and tilted`; '' where that is always so."""
+    said = [
+        _said(name, chosen, cells)
+        for (name, cells), chosen in zip(inputs.items(), box, strict=True)
+        if len(chosen) < len(cells)
+    ]
+    return " and ".join(said)
+
+
+def places(where: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
+    """Conditions that together hold in all cells of `where` and in no other that is not `allowed`; both (n_cells,)."""
+    values = np.where(where, 0, np.where(allowed, FREE, KEEP))
+    return tuple(condition(box, inputs) for box, _ in cover(values, sizes_of(inputs)))
+
+
+def listed(words: Sequence[str], last: str) -> str:
+    """`a, b or c`."""
+    return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def _said(name: str, chosen: tuple[int, ...], cells: tuple[str, ...]) -> str:
+    if cells == TRUTH_CELLS:
+        return name if chosen == (1,) else f"not {name}"
+    others = tuple(cell for cell in range(len(cells)) if cell not in chosen)
+    words, missing = _words(chosen, cells), _words(others, cells)
+    if len(missing) >= len(words):
+        return f"{name} is {listed(words, 'or')}"
+    return (
+        f"{name} is not {missing[0]}" if len(missing) == 1 else f"{name} is neither {listed(missing, 'nor')}"
+    )
+
+
+def _words(chosen: Sequence[int], cells: tuple[str, ...]) -> list[str]:
+    return [str(word) for word in cell_words(chosen, cells)]

@@ -1,0 +1,171 @@
+"""What an architecture does and why: its rules in words, and what its layers never come to do."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bbsd.architecture.boxes import first_match
+from bbsd.architecture.policy import controlling, decisions, joint_space, own_cells
+from bbsd.architecture.rules import boxes_of, sizes_of
+from bbsd.explanation.conditions import condition, places
+from bbsd.explanation.vocabulary import Entry, actions_of, inputs_of
+from bbsd.spec.models import NO_ACTION_TEXT
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from bbsd.architecture import Architecture, JointSpace
+    from bbsd.spec.meaning import Meaning
+    from bbsd.spec.meaning.behaviors import Module
+
+
+@dataclass(frozen=True, slots=True)
+class RuleInWords:
+    """What is done where a condition holds ('' is otherwise), and whether layers above always prevent it."""
+
+    decision: str
+    where: str
+    overruled: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LayerInWords:
+    """A layer and its behavior.
+
+    Of the rules the first that holds decides; the last one's condition is always ''. Where layers above always
+    prevent the behavior, `overruled` says where (apart from rules that are overruled as a whole), `effective` where it
+    may control, `overruled_by` who prevents it, highest first. `cells` counts the joint cells in which it controls.
+    """
+
+    layer: int
+    behavior: str
+    excited: str | None
+    rules: tuple[RuleInWords, ...]
+    overruled: tuple[str, ...]
+    effective: tuple[str, ...]
+    overruled_by: tuple[str, ...]
+    cells: int | None
+
+    @property
+    def acts(self) -> bool:
+        """Whether the behavior has an action anywhere."""
+        return any(rule.decision != NO_ACTION_TEXT for rule in self.rules)
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """An architecture in words, its layers from the highest down.
+
+    Where the joint input space is too large to go through, what depends on it is empty, and numbers of cells None.
+    """
+
+    name: str
+    layers: tuple[LayerInWords, ...]
+    left_out: tuple[str, ...]
+    joint_size: int
+    nobody: tuple[str, ...]
+    nobody_cells: int | None
+    inputs: tuple[Entry, ...]
+    actions: tuple[Entry, ...]
+
+    def to_plain(self) -> dict[str, Any]:
+        """The same as plain data that JSON can hold."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Control:
+    """What a behavior comes to do, for each cell of its own table, and the behaviors that prevent it."""
+
+    acts: NDArray[np.bool_]
+    controls: NDArray[np.bool_]
+    prevented_by: tuple[int, ...]
+
+
+def explain(meaning: Meaning, architecture: Architecture) -> Explanation:
+    """Explain an architecture of a spec. The counts are of joint cells, not of time spent in them."""
+    space = joint_space(meaning)
+    order = architecture.structure.tolist()
+    control = controlling(space, architecture) if space.is_small else None
+    nobody = np.zeros(0, bool) if control is None else control < 0
+    behaviors = list(meaning.spec.behaviors)
+    return Explanation(
+        name=meaning.spec.name,
+        layers=tuple(
+            _layer(meaning, space, architecture, layer, control) for layer in reversed(range(len(order)))
+        ),
+        left_out=tuple(name for index, name in enumerate(behaviors) if index not in order),
+        joint_size=space.joint_size,
+        nobody=places(nobody, np.zeros_like(nobody), space.dimensions) if nobody.any() else (),
+        nobody_cells=None if control is None else int(nobody.sum()),
+        inputs=inputs_of(meaning.spec, [behaviors[behavior] for behavior in reversed(order)]),
+        actions=actions_of(meaning.spec, [behaviors[behavior] for behavior in reversed(order)]),
+    )
+
+
+def _layer(
+    meaning: Meaning,
+    space: JointSpace,
+    architecture: Architecture,
+    layer: int,
+    controls: NDArray[np.int64] | None,
+) -> LayerInWords:
+    behavior = int(architecture.structure[layer])
+    module, table = meaning.episode.modules[behavior], architecture.tables[behavior]
+    written = meaning.spec.behaviors[module.name].excited
+    control = _control(space, behavior, table, controls)
+    lost = control.acts & ~control.controls
+    rules, whole = _rules(module, table, control)
+    names = list(meaning.spec.behaviors)
+    above = [other for other in architecture.structure[::-1].tolist() if other in control.prevented_by]
+    return LayerInWords(
+        layer=layer + 1,
+        behavior=module.name,
+        excited=None if written is None else " ".join(written.text.split()),
+        rules=rules,
+        overruled=places(lost & ~whole, whole | ~control.acts, module.inputs),
+        effective=places(control.controls, ~control.acts, module.inputs) if lost.any() else (),
+        overruled_by=tuple(names[other] for other in above),
+        cells=None if controls is None else int(np.count_nonzero(controls == behavior)),
+    )
+
+
+def _control(
+    space: JointSpace, behavior: int, table: NDArray[np.uint8], controller: NDArray[np.int64] | None
+) -> _Control:
+    """Without `controller`, nothing is known to be overruled."""
+    if controller is None:
+        return _Control(table > 0, table > 0, ())
+    acts = np.broadcast_to(decisions(space, behavior, table) > 0, space.sizes).ravel()
+    own = np.broadcast_to(own_cells(space, behavior), space.sizes).ravel()
+    controls = _any_of(own[acts & (controller == behavior)], len(table))
+    prevented = acts & ~controls[own]
+    return _Control(
+        _any_of(own[acts], len(table)), controls, tuple(np.unique(controller[prevented]).tolist())
+    )
+
+
+def _any_of(cells: NDArray[np.int64], n_cells: int) -> NDArray[np.bool_]:
+    return np.bincount(cells, minlength=n_cells) > 0
+
+
+def _rules(
+    module: Module, table: NDArray[np.uint8], control: _Control
+) -> tuple[tuple[RuleInWords, ...], NDArray[np.bool_]]:
+    """A behavior's rules, and the cells of those that are always overruled as a whole."""
+    boxes, default = boxes_of(table, module.inputs)
+    words, sizes = (NO_ACTION_TEXT, *module.actions), sizes_of(module.inputs)
+    whole, rules = np.zeros(len(table), bool), []
+    elsewhere = first_match([box for box, _ in boxes], sizes) < 0
+    held = [
+        (condition(box, module.inputs), decision, first_match([box], sizes) == 0) for box, decision in boxes
+    ]
+    for where, decision, cells in [*held, ("", default, elsewhere)]:
+        acting = cells & (table == decision) & control.acts
+        overruled = bool(acting.any() and not control.controls[acting].any())
+        whole |= acting & overruled
+        rules.append(RuleInWords(words[decision], where, overruled))
+    return tuple(rules), whole

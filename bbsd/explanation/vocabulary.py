@@ -1,0 +1,70 @@
+"""What the words of an explanation stand for: inputs and actions, as the designer wrote them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from bbsd.spec.models import Behavior, PartitionText, Spec
+    from bbsd.spec.written import Expression
+
+
+class Entry(NamedTuple):
+    """A word, and what it stands for."""
+
+    word: str
+    meaning: str
+
+
+def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
+    """The inputs of some behaviors, each once, in the order in which they are met."""
+    return _entries(
+        (behavior, name, _partition(written))
+        for behavior in behaviors
+        for name, written in _inputs(spec, spec.behaviors[behavior]).items()
+    )
+
+
+def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
+    """The actions of some behaviors, each once, in the order in which they are met."""
+    return _entries(
+        (behavior, name, _mapping(sets))
+        for behavior in behaviors
+        for name, sets in spec.behaviors[behavior].actions.items()
+    )
+
+
+def _inputs(spec: Spec, behavior: Behavior) -> dict[str, PartitionText]:
+    if isinstance(behavior.inputs, dict):
+        return behavior.inputs
+    return {name: spec.environment.sensors[name] for name in behavior.inputs}
+
+
+def _partition(written: PartitionText) -> str:
+    return _mapping(written) if isinstance(written, dict) else _text(written)
+
+
+def _mapping(written: dict[str, Expression]) -> str:
+    return "; ".join(f"{name}: {_text(expression)}" for name, expression in written.items()) or "nothing"
+
+
+def _text(expression: Expression) -> str:
+    return " ".join(expression.text.split())
+
+
+def _entries(found: Iterable[tuple[str, str, str]]) -> tuple[Entry, ...]:
+    """The words with their meanings; a word that has several says whose it is."""
+    by_word: dict[str, dict[str, list[str]]] = {}
+    for behavior, word, meaning in found:
+        by_word.setdefault(word, {}).setdefault(meaning, []).append(behavior)
+    return tuple(
+        Entry(_whose(word, behaviors, meanings), meaning)
+        for word, meanings in by_word.items()
+        for meaning, behaviors in meanings.items()
+    )
+
+
+def _whose(word: str, behaviors: Sequence[str], meanings: dict[str, list[str]]) -> str:
+    return word if len(meanings) == 1 else f"{word} of {', '.join(behaviors)}"

@@ -1,0 +1,118 @@
+"""What a name, a call of a definition, and an index stand for in a scope."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TypeAlias
+
+from bbsd.errors import did_you_mean
+from bbsd.expression.checks import has_arguments, of_kind
+from bbsd.expression.graph import Kind, Node, value_of
+from bbsd.expression.picking import pick
+from bbsd.expression.scope import Deferred, Definition, PerRobot, Scope, Shared, Unusable, Value
+from bbsd.expression.tree import Call, Expr, Index, Name
+from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
+
+Elaborate: TypeAlias = Callable[[Expr, Scope], Value]
+"""What gives the value of any expression in a scope."""
+
+
+def name_value(expr: Name, scope: Scope, elaborate: Elaborate) -> Value:
+    """The value that a name has in a scope, for its robot."""
+    name = expr.name
+    if name in scope.local:
+        return scope.local[name]
+    if name in CONSTANTS:
+        return scope.graph.number(CONSTANTS[name])
+    match scope.names.get(name):
+        case Shared(value=found):
+            return found
+        case Deferred(value=make):
+            return make()
+        case PerRobot(value=of_robot) if scope.robot is not None:
+            return of_robot(scope.robot)
+        case Definition(parameters=()) as definition:
+            return _definition(name, definition, (), scope, elaborate)
+    return _without_value(expr, scope)
+
+
+def _without_value(expr: Name, scope: Scope) -> Node:
+    name, span = expr.name, expr.span
+    match scope.names.get(name):
+        case PerRobot():
+            message = f"{name} is one value for each robot; here the team is meant"
+            advice = f"use an aggregate, like max({name}[r] for r in team), or one robot's, like {name}[0]"
+            return scope.mistake("BB059", message, span, advice)
+        case Definition(parameters=parameters):
+            message = f"{name} needs arguments: {name}({', '.join(parameters)})"
+            return scope.mistake("BB054", message, span)
+        case Unusable(code=code, reason=reason, advice=advice):
+            return scope.mistake(code, reason, span, advice) if reason else scope.graph.unknown
+    return scope.mistake("BB052", _unknown(name, scope), span)
+
+
+def _unknown(name: str, scope: Scope) -> str:
+    if name in FUNCTIONS or name in AGGREGATES or name in DRAWS:
+        return f"{name} is a function and needs its arguments in parentheses"
+    if name in ("team", "others"):
+        return f"{name} can only stand after in: max(x[r] for r in {name})"
+    return f'unknown name "{name}"{did_you_mean(name, [*scope.local, *scope.names, *CONSTANTS])}'
+
+
+def call_definition(expr: Call, definition: Definition, scope: Scope, elaborate: Elaborate) -> Value:
+    """The value of a definition with parameters for the arguments of a call."""
+    if not definition.parameters:
+        message = f"{expr.function} has no parameters; write it without parentheses"
+        return scope.mistake("BB054", message, expr.span)
+    if not has_arguments(expr, len(definition.parameters), scope):
+        return scope.graph.unknown
+    arguments = tuple(elaborate(argument, scope) for argument in expr.arguments)
+    return _definition(expr.function, definition, arguments, scope, elaborate)
+
+
+def _definition(
+    name: str, definition: Definition, arguments: tuple[Value, ...], scope: Scope, elaborate: Elaborate
+) -> Value:
+    key = (name, scope.robot, arguments)
+    if key not in scope.memo:
+        local = dict(zip(definition.parameters, arguments, strict=True))
+        inner = replace(scope, path=definition.path, local=local, draws=None)
+        scope.memo[key] = elaborate(definition.expression, inner)
+    return scope.memo[key]
+
+
+def index(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
+    """The element of a list, or what one robot has."""
+    items = _robots_values(expr.of, scope, elaborate) or elaborate(expr.of, scope)
+    if isinstance(items, Node):
+        if items.kind is Kind.UNKNOWN:
+            return items
+        message = "only lists, and what each robot has, can be indexed"
+        return scope.mistake("BB057", message, expr.of.span)
+    chosen = of_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
+    return chosen if chosen.kind is Kind.UNKNOWN else _element(items, chosen, expr.index, scope)
+
+
+def _robots_values(of: Expr, scope: Scope, elaborate: Elaborate) -> tuple[Value, ...] | None:
+    """The values of all robots, where `of` names one scalar for each of them, else None."""
+    if not isinstance(of, Name) or of.name in scope.local:
+        return None
+    found = scope.names.get(of.name)
+    if not (isinstance(found, PerRobot) or (isinstance(found, Definition) and not found.parameters)):
+        return None
+    values = tuple(name_value(of, replace(scope, robot=robot), elaborate) for robot in range(scope.robots))
+    return values if isinstance(values[0], Node) else None
+
+
+def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> Value:
+    if not items:
+        return scope.mistake("BB057", "an empty list has no elements", at.span)
+    if chosen.literal and not 0 <= value_of(chosen) < len(items):
+        message = f"there is no element {value_of(chosen):g}; the {len(items)} count from 0"
+        return scope.mistake("BB057", message, at.span)
+    if not chosen.literal and len({len(item) if isinstance(item, tuple) else -1 for item in items}) > 1:
+        message = "rows of different lengths can only be indexed by a plain number"
+        return scope.mistake("BB057", message, at.span)
+    scope.findings.wholes.append((scope.path, at.span, "an index", chosen))
+    return pick(items, chosen, scope.graph)

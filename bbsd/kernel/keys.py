@@ -1,0 +1,23 @@
+"""Keys of many streams at once, for what lives in lock-step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from bbsd.kernel.streams import fold
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def keys(key: int, first: int, count: int) -> NDArray[np.uint64]:
+    """The keys of the streams called first, first + 1, ... within the stream of `key`; (count,)."""
+    words = np.arange(first, first + count, dtype=np.uint64)
+    return cast("NDArray[np.uint64]", fold(key, words))  # type: ignore[arg-type]  # the arithmetic is elementwise
+
+
+def folded(streams: NDArray[np.uint64], word: int) -> NDArray[np.uint64]:
+    """The stream called `word` within each of the streams; (n,)."""
+    return cast("NDArray[np.uint64]", fold(streams, word))  # type: ignore[arg-type]  # the arithmetic is elementwise

@@ -1,0 +1,74 @@
+"""Fitness over the generations, as in the paper's Fig. 14, and the diversity of the pools."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from bbsd.report.figures.files import color, drawn, legend, marker
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    from matplotlib.axes import Axes
+
+    Line = Mapping[str, Any]
+
+FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    ("best", "best agent", {"color": "#999999", "linewidth": 1.0}),
+    ("mean", "mean of the agents", {"color": color(0), "linewidth": 1.8}),
+    ("lifetime", "mean lifetime fitness", {"color": color(0), "linestyle": (0, (4, 2))}),
+)
+"""Solid is the fitness (14), dashed is over whole lifetimes, as in the paper."""
+
+
+def curves(metrics: Sequence[Line], path: Path) -> None:
+    """Draw the lines of `metrics.jsonl`: fitness above, diversity of each behavior's pool below.
+
+    With several runs a line is the mean of the runs, and each run's mean fitness is drawn faintly. Raises
+    FigureError for a kind of file that cannot be drawn, and OSError where it cannot be written.
+    """
+    with drawn(path, 7.5, [3.4, 1.8]) as (fitness, diversity):
+        _draw_fitness(fitness, metrics)
+        _draw_diversity(diversity, metrics)
+
+
+def _draw_fitness(panel: Axes, metrics: Sequence[Line]) -> None:
+    runs = sorted({line["run"] for line in metrics})
+    for run in runs if len(runs) > 1 else []:
+        panel.plot(*_points(metrics, ("mean",), run), color=color(0), linewidth=0.7, alpha=0.35)
+    for key, label, style in FITNESS:
+        generations, values = _points(metrics, (key,))
+        panel.plot(generations, values, label=label, marker=marker(len(values)), **style)
+    panel.set_ylabel("fitness" if len(runs) < 2 else f"fitness, mean of {len(runs)} runs")
+    legend(panel)
+
+
+def _draw_diversity(panel: Axes, metrics: Sequence[Line]) -> None:
+    for index, name in enumerate(metrics[0]["diversity"] if metrics else ()):
+        generations, values = _points(metrics, ("diversity", name))
+        panel.plot(
+            generations, values, label=name, color=color(index), linewidth=1.1, marker=marker(len(values))
+        )
+    panel.set(xlabel="generation", ylabel="diversity")
+    panel.set_ylim(bottom=0)
+    panel.locator_params(axis="x", integer=True)
+    legend(panel)
+
+
+def _points(
+    metrics: Sequence[Line], keys: tuple[str, ...], run: int | None = None
+) -> tuple[list[int], list[float]]:
+    """Return generations and values of one run, or their means over all runs that have come so far."""
+    found: dict[int, list[float]] = {}
+    for line in metrics:
+        if run in {None, line["run"]}:
+            found.setdefault(line["generation"], []).append(_value(line, keys))
+    return list(found), [sum(values) / len(values) for values in found.values()]
+
+
+def _value(line: Line, keys: tuple[str, ...]) -> float:
+    value: Any = line
+    for key in keys:
+        value = value[key]
+    return float(value)

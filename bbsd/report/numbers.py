@@ -1,0 +1,53 @@
+"""Numbers as people read them."""
+
+from __future__ import annotations
+
+from math import isfinite, isnan
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+DIGITS = 5
+"""Significant digits of the largest number of a column."""
+
+
+def number(value: float) -> str:
+    """Return a number with five significant digits."""
+    return column([value])[0]
+
+
+def column(values: Sequence[float]) -> list[str]:
+    """Return numbers to stand below each other: all with the decimals that the largest of five digits has."""
+    largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
+    if largest and not 1e-3 <= largest < 1e9:
+        return [_special(value) or f"{value:.{DIGITS - 1}e}" for value in values]
+    whole_digits = len(str(int(largest)))
+    decimals = max(0, DIGITS - whole_digits)
+    return [_special(value) or f"{round(value, decimals) + 0.0:.{decimals}f}" for value in values]
+
+
+def _special(value: float) -> str:
+    if isfinite(value):
+        return ""
+    return "unknown" if isnan(value) else "infinite" if value > 0 else "-infinite"
+
+
+def percent(share: float) -> str:
+    """Return a share in percent with one decimal."""
+    return "unknown" if isnan(share) else f"{100 * share:.1f} %"
+
+
+def duration(seconds: float) -> str:
+    """Return a time as people say it: `8.1 s`, `3 min 5 s`, `2 h 10 min`."""
+    if seconds < 60:
+        return f"{seconds:.1f} s"
+    minutes, rest = divmod(round(seconds), 60)
+    if minutes < 60:
+        return f"{minutes} min {rest} s"
+    return f"{minutes // 60} h {minutes % 60} min"
+
+
+def count(number_of: int, what: str, plural: str = "") -> str:
+    """Return a number with the thing counted: `1 behavior`, `5,000 behaviors`."""
+    return f"{number_of:,} {what if number_of == 1 else plural or what + 's'}"

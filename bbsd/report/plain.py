@@ -1,0 +1,65 @@
+"""Results as plain data for JSON, which has no infinities and no NaN: those are null."""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from bbsd.evaluation import Evaluation, Interval
+    from bbsd.report.shown import DesignResult
+
+Plain: TypeAlias = "Mapping[str, Plain] | Sequence[Plain] | str | int | float | bool | None"
+
+
+def json_text(plain: Plain) -> str:
+    """Return plain data as JSON of several lines, without a line break at its end."""
+    return json.dumps(plain, indent=2, allow_nan=False, ensure_ascii=False)
+
+
+def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
+    """Return what an evaluation found; `not_finite` only where a value was not."""
+    plain: dict[str, Plain] = {
+        "return": interval_plain(evaluation.returns),
+        "episodes": evaluation.episodes,
+        "agents": evaluation.agents,
+        "exact": evaluation.exact,
+        "steps": finite(evaluation.steps),
+        "reward_terms": {name: finite(value) for name, value in evaluation.reward_terms.items()},
+        "control_share": {name: finite(value) for name, value in evaluation.control_share.items()},
+    }
+    if evaluation.not_finite:
+        plain["not_finite"] = dict(evaluation.not_finite)
+    return plain
+
+
+def design_plain(designed: DesignResult, seed: int, runs: int) -> dict[str, Plain]:
+    """Return what a design found, and for which seed and number of runs."""
+    return {
+        "architecture": str(designed.architecture),
+        "return": interval_plain(designed.evaluation.returns),
+        "episodes": designed.evaluation.episodes,
+        "lifetime": interval_plain(designed.lifetime),
+        "random": interval_plain(designed.random),
+        "structure": list(designed.structure),
+        "seconds": finite(designed.seconds),
+        "seed": seed,
+        "runs": runs,
+    }
+
+
+def interval_plain(interval: Interval) -> dict[str, Plain]:
+    """Return a mean with its standard deviation and its 95 % interval."""
+    return {
+        "mean": finite(interval.mean),
+        "sd": finite(interval.sd),
+        "ci95": [finite(interval.low), finite(interval.high)],
+    }
+
+
+def finite(value: float) -> float | None:
+    """Return the value, None if it is infinite or NaN."""
+    return value if isfinite(value) else None

@@ -1,0 +1,123 @@
+"""Closing tables of commands, for rich to print. Texts from specs are rich texts, never markup."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from bbsd.errors import escape
+from bbsd.report.bars import bar
+from bbsd.report.numbers import column, count, duration, percent
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from rich.console import RenderableType
+
+    from bbsd.evaluation import Evaluation
+    from bbsd.report.shown import DesignResult
+
+BAR_WIDTH = 24
+INTERVAL = "95 % interval"
+
+
+def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> RenderableType:
+    """Return the return with its interval, what each reward term gave, and who was in control.
+
+    Bars are made of block characters, or of ASCII where the output has none.
+    """
+    parts: list[RenderableType] = [
+        Group(_return(evaluation), _basis(evaluation)),
+        _reward_terms(evaluation),
+        _control(evaluation, blocks=blocks),
+    ]
+    if evaluation.not_finite:
+        parts.append(_not_finite(evaluation))
+    return Group(*_separated(parts))
+
+
+def design_table(designed: DesignResult) -> RenderableType:
+    """Return the structure from top to bottom, and the design's fitness beside that of random agents."""
+    where = Text(f"{escape(str(designed.architecture))}, designed in {duration(designed.seconds)}")
+    return Group(*_separated([_structure(designed.structure), _fitness(designed), where]))
+
+
+def _separated(parts: Sequence[RenderableType]) -> Iterable[RenderableType]:
+    for place, part in enumerate(parts):
+        if place:
+            yield ""
+        yield part
+
+
+def _table(*headings: str, right: Sequence[int] = ()) -> Table:
+    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
+    for place, heading in enumerate(headings):
+        table.add_column(Text(heading), justify="right" if place in right else "left", overflow="fold")
+    return table
+
+
+def _return(evaluation: Evaluation) -> Table:
+    mean, sd, low, high = column([evaluation.mean, evaluation.sd, *evaluation.ci95])
+    table = _table("return", "standard deviation", INTERVAL)
+    spread = "exact" if evaluation.exact else f"{low} to {high}"
+    table.add_row(Text(mean, "bold"), sd, spread)
+    return table
+
+
+def _basis(evaluation: Evaluation) -> str:
+    """Return what the return was measured on."""
+    steps = count(round(evaluation.steps), "step")
+    if not evaluation.steps.is_integer():
+        steps = f"{evaluation.steps:.1f} steps on average"
+    if evaluation.exact:
+        return f"all {count(evaluation.episodes, 'start')}, each of {steps}"
+    agents = f" by {count(evaluation.agents, 'agent')}" if evaluation.agents > 1 else ""
+    return f"{count(evaluation.episodes, 'episode')}{agents}, each of {steps}"
+
+
+def _reward_terms(evaluation: Evaluation) -> Table:
+    table = _table("reward term", "an episode", right=[1])
+    values = column(list(evaluation.reward_terms.values()))
+    for name, value in zip(evaluation.reward_terms, values, strict=True):
+        table.add_row(Text(escape(name)), value)
+    return table
+
+
+def _control(evaluation: Evaluation, *, blocks: bool) -> Table:
+    table = _table("in control", "of the time", "", right=[1])
+    for name, share in evaluation.control_share.items():
+        drawn = Text(bar(share, BAR_WIDTH, blocks=blocks), "dim" if name == "nobody" else "cyan")
+        table.add_row(Text(escape(name)), percent(share), drawn)
+    return table
+
+
+def _not_finite(evaluation: Evaluation) -> Table:
+    table = _table("infinite or not a number", "in steps", right=[1])
+    for name, steps in evaluation.not_finite.items():
+        table.add_row(Text(escape(name), "yellow"), str(steps))
+    return table
+
+
+def _structure(structure: Sequence[str]) -> Table:
+    table = _table("layer", "behavior", right=[0])
+    for place, name in enumerate(structure):
+        table.add_row(str(len(structure) - place), Text(escape(name)))
+    return table
+
+
+def _fitness(designed: DesignResult) -> Table:
+    """All numbers have the same decimals, so that they can be compared at a glance."""
+    rows = {
+        "fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "fresh episode")),
+        "lifetime fitness": (designed.lifetime, count(designed.lifetime.count, "agent")),
+        "random agents": (designed.random, count(designed.random.count, "agent")),
+    }
+    texts = column([value for each, _ in rows.values() for value in (each.mean, each.low, each.high)])
+    table = _table("", "mean return", INTERVAL, "", right=[1])
+    for place, (name, (_, basis)) in enumerate(rows.items()):
+        mean, low, high = texts[3 * place : 3 * place + 3]
+        table.add_row(name, Text(mean, "" if place else "bold"), f"{low} to {high}", basis)
+    return table

@@ -1,0 +1,48 @@
+"""The final answer of a run: candidates, each different behavior once, and the race between them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.architecture import Architecture, behavior_key, joint_space
+from bbsd.kernel.streams import fold, name_word
+from bbsd.solver.race import race
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bbsd.compiler import Problem
+    from bbsd.solver.generation import State
+    from bbsd.solver.settings import Settings
+
+RACE = name_word("race")
+
+
+def answer(state: State, problem: Problem, settings: Settings, key: int) -> Architecture:
+    """The best of a run's candidates, found on episodes that no generation lived."""
+    entrants = candidates(state, problem, settings)
+    finish = race(problem, entrants, fold(key, RACE), settings.answer.episodes)
+    return entrants[finish.winner]
+
+
+def candidates(state: State, problem: Problem, settings: Settings) -> list[Architecture]:
+    """The best individuals under every meme, then the champions; of those that behave alike only the first."""
+    best = tuple(
+        pool[int(np.argmax(state.fitness[index, : len(pool)]))] for index, pool in enumerate(state.pools)
+    )
+    fittest_first = state.culture.memes[np.argsort(-state.culture.fitness, kind="stable")]
+    composed = [Architecture(best, meme) for meme in fittest_first]
+    return different([*composed, *state.champions.architectures(problem)], problem)[
+        : settings.answer.candidates
+    ]
+
+
+def different(architectures: Iterable[Architecture], problem: Problem) -> list[Architecture]:
+    """Each different behavior once, by what controls in every cell of the joint input space."""
+    found: dict[bytes, Architecture] = {}
+    space = joint_space(problem.meaning)
+    for architecture in architectures:
+        found.setdefault(behavior_key(space, architecture), architecture)
+    return list(found.values())

@@ -1,0 +1,63 @@
+"""The best agents of a run so far, kept for the final race."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.architecture import Architecture
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from bbsd.compiler import Problem
+    from bbsd.evaluation import Agents
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Champions:
+    """The fittest agents, each different genotype once, the fittest first.
+
+    tables: uint8 (n, cells of all behaviors one after the other); structures: (n, n_layers); fitness: (n,)
+    of (14), from the few episodes of one lifetime, so an upper guess; capacity: how many are kept.
+    """
+
+    tables: NDArray[np.uint8]
+    structures: NDArray[np.int64]
+    fitness: NDArray[np.float64]
+    capacity: int
+
+    def joined(self, agents: Agents, fitness: NDArray[np.float64]) -> Champions:
+        """The champions after a generation's agents were added."""
+        best = np.argsort(-fitness, kind="stable")[: self.capacity]
+        tables = np.concatenate(
+            [pool[agents.members[best, index]] for index, pool in enumerate(agents.pools)], axis=1
+        )
+        every = np.concatenate([self.tables, tables])
+        structures = np.concatenate([self.structures, agents.structures[best]])
+        values = np.concatenate([self.fitness, fitness[best]])
+        kept: list[int] = []
+        seen: set[bytes] = set()
+        for place in np.argsort(-values, kind="stable"):
+            genotype = every[place].tobytes() + structures[place].tobytes()
+            if genotype not in seen and len(kept) < self.capacity:
+                seen.add(genotype)
+                kept.append(int(place))
+        return Champions(every[kept], structures[kept], values[kept], self.capacity)
+
+    def architectures(self, problem: Problem) -> list[Architecture]:
+        """The champions as architectures."""
+        ends = np.cumsum([table.n_cells for table in problem.tables])[:-1]
+        return [
+            Architecture(tuple(np.split(tables, ends)), structure)
+            for tables, structure in zip(self.tables, self.structures, strict=True)
+        ]
+
+
+def no_champions(problem: Problem, capacity: int) -> Champions:
+    """Room for champions."""
+    n_cells = sum(table.n_cells for table in problem.tables)
+    layers = np.empty((0, len(problem.layers)), np.int64)
+    return Champions(np.empty((0, n_cells), np.uint8), layers, np.empty(0), capacity)

@@ -1,0 +1,108 @@
+"""A run's state on disk: one file of plain arrays.
+
+Replaced whole, so a run that is killed loses at most one generation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from hashlib import sha256
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from bbsd.solver.champions import Champions
+from bbsd.solver.culture import Culture
+from bbsd.solver.generation import State
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from bbsd.architecture import Architecture
+
+DIGEST_BYTES = 32
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Progress:
+    """Where a command stands: the run (from 0), its state, and the answers of the runs before it, one row each.
+
+    answers: tables uint8 (n_runs_done, cells of all behaviors), structures (n_runs_done, n_layers).
+    """
+
+    run: int
+    state: State
+    answer_tables: NDArray[np.uint8]
+    answer_structures: NDArray[np.int64]
+
+    def with_answer(self, architecture: Architecture, state: State) -> Progress:
+        """The next run's beginning, after this one's answer."""
+        tables = np.concatenate(architecture.tables)[None]
+        return Progress(
+            self.run + 1,
+            state,
+            np.concatenate([self.answer_tables, tables]),
+            np.concatenate([self.answer_structures, architecture.structure[None]]),
+        )
+
+
+class CheckpointError(ValueError):
+    """A checkpoint that cannot be gone on from, and why."""
+
+
+def save(path: Path, progress: Progress) -> None:
+    """Write the state beside its digest, whole or not at all."""
+    buffer = BytesIO()
+    np.savez(buffer, **_arrays(progress), allow_pickle=False)
+    content = buffer.getvalue()
+    part = path.with_suffix(".part")
+    part.write_bytes(sha256(content).digest() + content)
+    part.replace(path)
+
+
+def load(path: Path) -> Progress:
+    """Read a state back; raises CheckpointError for a file that is damaged."""
+    content = path.read_bytes()
+    digest, content = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
+    if sha256(content).digest() != digest:
+        raise CheckpointError(f"{path} is damaged: its digest does not match")
+    try:
+        with np.load(BytesIO(content), allow_pickle=False) as arrays:
+            return _progress(dict(arrays))
+    except (BadZipFile, KeyError, ValueError) as error:
+        raise CheckpointError(f"{path} cannot be read: {error}") from None
+
+
+def _arrays(progress: Progress) -> dict[str, NDArray[np.generic]]:
+    state = progress.state
+    return {
+        "run": np.array(progress.run),
+        "generation": np.array(state.generation),
+        **{f"pool_{index}": pool for index, pool in enumerate(state.pools)},
+        "fitness": state.fitness,
+        "memes": state.culture.memes,
+        "meme_fitness": state.culture.fitness,
+        "champion_tables": state.champions.tables,
+        "champion_structures": state.champions.structures,
+        "champion_fitness": state.champions.fitness,
+        "champion_capacity": np.array(state.champions.capacity),
+        "answer_tables": progress.answer_tables,
+        "answer_structures": progress.answer_structures,
+    }
+
+
+def _progress(arrays: dict[str, NDArray[Any]]) -> Progress:
+    pools = tuple(arrays[f"pool_{index}"] for index in range(len(arrays["fitness"])))
+    champions = Champions(
+        arrays["champion_tables"],
+        arrays["champion_structures"],
+        arrays["champion_fitness"],
+        int(arrays["champion_capacity"]),
+    )
+    culture = Culture(arrays["memes"], arrays["meme_fitness"])
+    state = State(int(arrays["generation"]), pools, arrays["fitness"], culture, champions)
+    return Progress(int(arrays["run"]), state, arrays["answer_tables"], arrays["answer_structures"])

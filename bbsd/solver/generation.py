@@ -1,0 +1,136 @@
+"""One generation of Fig. 4, from the pools it starts with to what it leaves to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.evaluation import Agents
+from bbsd.kernel.keys import keys
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.solver import sharing
+from bbsd.solver.champions import Champions, no_champions
+from bbsd.solver.culture import Culture, draw_memes, empty_culture, take_in
+from bbsd.solver.genetics import next_pool, random_pool
+from bbsd.solver.lifetime import Lives, live
+from bbsd.solver.pairing import members
+from bbsd.solver.structures import random_structures
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from bbsd.compiler import Pool, Problem
+    from bbsd.solver.settings import Settings
+
+POOLS, PAIRING, BIRTH, MEMES, LIVES, BREEDING = (
+    name_word(name) for name in ("pools", "pairing", "birth", "memes", "lives", "breeding")
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """All that a generation leaves behind, one plain value.
+
+    pools as they were lived with, fitness of their individuals (n_behaviors, largest population), the culture, and the
+    champions of all generations so far. Generation 0 is before the first.
+    """
+
+    generation: int
+    pools: tuple[Pool, ...]
+    fitness: NDArray[np.float64]
+    culture: Culture
+    champions: Champions
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Census:
+    """How the agents of one generation did: fitness (14) and lifetime fitness (n_agents,), final structures."""
+
+    fitness: NDArray[np.float64]
+    lifetime_fitness: NDArray[np.float64]
+    structures: NDArray[np.int64]
+
+
+def beginning(problem: Problem, settings: Settings, key: int) -> State:
+    """Initialize n different behavior pools and an empty culture.
+
+    A behavior without open cells needs one individual.
+    """
+    pools = tuple(
+        random_pool(
+            fold(fold(key, POOLS), word_of(index)),
+            settings.coevolution.population if table.n_open else 1,
+            table.given,
+            table.n_actions,
+        )
+        for index, table in enumerate(problem.tables)
+    )
+    unknown = np.zeros((len(pools), settings.coevolution.population))
+    culture = empty_culture(len(problem.layers))
+    return State(0, pools, unknown, culture, no_champions(problem, settings.answer.candidates))
+
+
+def next_generation(state: State, problem: Problem, settings: Settings, run_key: int) -> tuple[State, Census]:
+    """Fig. 4, once around its loop.
+
+    The genetic operators come first here, since a state keeps the pools as they were lived with.
+    """
+    generation = state.generation + 1
+    key = fold(run_key, word_of(generation))
+
+    pools = state.pools if generation == 1 else bred(state, problem, settings, fold(key, BREEDING))
+    # Select n different behavior modules from each pool; select a meme T0, the initial structure.
+    who = members(fold(key, PAIRING), [len(pool) for pool in pools], settings.coevolution.agents)
+    agents = Agents(pools, who, born(state.culture, problem, settings, key, len(who)))
+    # For a lifetime: choose T* (9), interact, receive reinforcement, update the values (13).
+    lives = live(problem, agents, keys(fold(key, LIVES), 0, len(agents)), generation, settings.learning)
+    # Return fitness (14) and the final structure; share fitness to behaviors by (15) or (17).
+    fitness = sharing.agent_fitness(lives.returns, settings.learning.last)
+    shared = share(fitness, lives, who, settings)
+    # Update the meme pool using T* and its fitness (22).
+    culture = state.culture
+    if settings.culture is not None:
+        culture = take_in(culture, lives.structures, fitness, settings.culture)
+
+    final = agents.living(lives.structures)
+    champions = state.champions.joined(final, fitness)
+    census = Census(fitness, sharing.lifetime_fitness(lives.returns), lives.structures)
+    return State(generation, pools, shared, culture, champions), census
+
+
+def born(
+    culture: Culture, problem: Problem, settings: Settings, key: int, n_agents: int
+) -> NDArray[np.int64]:
+    """The structures that agents are born with: memes where there are any, else random ones."""
+    if settings.culture is not None and len(culture):
+        return draw_memes(fold(key, MEMES), culture, n_agents, settings.culture.scaled)
+    return random_structures(keys(fold(key, BIRTH), 0, n_agents), problem.layers, problem.candidates)
+
+
+def share(
+    fitness: NDArray[np.float64], lives: Lives, who: NDArray[np.int64], settings: Settings
+) -> NDArray[np.float64]:
+    """The fitness of individuals (n_behaviors, population) by the sharing policy."""
+    if settings.sharing == "uniform":
+        return sharing.uniform(fitness, who, settings.coevolution.population)
+    return sharing.value_based(lives.values, who, settings.coevolution.population)
+
+
+def bred(state: State, problem: Problem, settings: Settings, key: int) -> tuple[Pool, ...]:
+    """Apply selection, crossover and mutation to each pool, at the rates of the generation that ended."""
+    breeding = settings.coevolution.breeding(state.generation)
+    return tuple(
+        next_pool(
+            fold(key, word_of(index)),
+            pool,
+            state.fitness[index, : len(pool)],
+            table.n_actions,
+            table.given,
+            breeding,
+        )
+        if table.n_open
+        else pool
+        for index, (pool, table) in enumerate(zip(state.pools, problem.tables, strict=True))
+    )

@@ -1,0 +1,35 @@
+"""What is noted of a generation: one line of `metrics.jsonl`, without clock or path."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from bbsd.compiler import Pool, Problem
+    from bbsd.solver.generation import Census, State
+
+
+def line(run: int, state: State, census: Census, problem: Problem) -> dict[str, Any]:
+    """The figures of a generation: fitness over the agents, diversity of the pools, the fittest agent's structure."""
+    best = int(np.argmax(census.fitness))
+    structure = [problem.names[behavior] for behavior in reversed(census.structures[best])]
+    return {
+        "run": run + 1,
+        "generation": state.generation,
+        "mean": float(np.mean(census.fitness)),
+        "best": float(census.fitness[best]),
+        "sd": float(np.std(census.fitness, ddof=1)) if len(census.fitness) > 1 else 0.0,
+        "lifetime": float(np.mean(census.lifetime_fitness)),
+        "diversity": {name: diversity(pool) for name, pool in zip(problem.names, state.pools, strict=True)},
+        "structure": structure,
+    }
+
+
+def diversity(pool: Pool) -> float:
+    """The probability that two individuals, drawn with replacement, differ in a cell; the mean over all cells."""
+    different = np.ones(pool.shape[1])
+    for value in range(int(pool.max(initial=0)) + 1):
+        different -= np.mean(pool == value, axis=0) ** 2
+    return float(np.mean(different))

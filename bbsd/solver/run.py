@@ -1,0 +1,116 @@
+"""A command's runs: generation after generation, run after run, and the answer of them all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bbsd.architecture import Architecture
+from bbsd.evaluation import Evaluation, Interval, agents_of, detailed, evaluation, interval, returns_of
+from bbsd.kernel.keys import keys
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.solver import metrics
+from bbsd.solver.answer import answer, different
+from bbsd.solver.checkpoint import Progress
+from bbsd.solver.generation import State, beginning, born, next_generation
+from bbsd.solver.lifetime import live
+from bbsd.solver.race import race
+from bbsd.solver.random_agents import random_agents
+from bbsd.spec.meaning import seed_key
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.compiler import Problem
+    from bbsd.solver.settings import Settings
+
+RUNS, BEST, JUDGED, RANDOM, LIFETIMES = (
+    name_word(name) for name in ("runs", "best", "judged", "random", "lifetimes")
+)
+
+RANDOM_AGENTS, RANDOM_EPISODES = 1000, 10
+
+
+def run_key(seed: int, run: int) -> int:
+    """The key of all streams of one run, which counts from 0."""
+    return fold(fold(seed_key(seed), RUNS), word_of(run))
+
+
+def start(problem: Problem, settings: Settings, seed: int) -> Progress:
+    """A command's progress before its first generation."""
+    n_cells, n_layers = sum(table.n_cells for table in problem.tables), len(problem.layers)
+    none = np.empty((0, n_cells), np.uint8), np.empty((0, n_layers), np.int64)
+    return Progress(0, beginning(problem, settings, run_key(seed, 0)), *none)
+
+
+def generations(
+    progress: Progress, problem: Problem, settings: Settings, seed: int, n_runs: int
+) -> Iterator[tuple[Progress, dict[str, Any] | None]]:
+    """Go on from some progress to the end of the last run.
+
+    Yields after every generation the progress and the generation's metrics, and after every run's race the
+    progress with its answer, without metrics.
+    """
+    while progress.run < n_runs:
+        key = run_key(seed, progress.run)
+        state = progress.state
+        while state.generation < settings.coevolution.generations:
+            state, census = next_generation(state, problem, settings, key)
+            progress = Progress(progress.run, state, progress.answer_tables, progress.answer_structures)
+            yield progress, metrics.line(progress.run, state, census, problem)
+        found = answer(state, problem, settings, key)
+        following = (
+            state
+            if progress.run + 1 == n_runs
+            else beginning(problem, settings, run_key(seed, progress.run + 1))
+        )
+        progress = progress.with_answer(found, following)
+        yield progress, None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Judgement:
+    """The design of all runs, what it earns on episodes that took no part in choosing it.
+
+    And what to compare it with.
+    """
+
+    architecture: Architecture
+    evaluation: Evaluation
+    lifetime: Interval
+    """Lifetime fitness of agents with these behaviors that are born into the last run's culture, over agents."""
+    random: Interval
+    """Random agents of the same space, over agents."""
+
+
+def judge(progress: Progress, problem: Problem, settings: Settings, seed: int) -> Judgement:
+    """Choose the best of the runs' answers and judge it on fresh episodes."""
+    key = seed_key(seed)
+    ends = np.cumsum([table.n_cells for table in problem.tables])[:-1]
+    answers = [
+        Architecture(tuple(np.split(tables, ends)), structure)
+        for tables, structure in zip(progress.answer_tables, progress.answer_structures, strict=True)
+    ]
+    entrants = different(answers, problem)
+    best = entrants[race(problem, entrants, fold(key, BEST), settings.answer.episodes).winner]
+    generation = settings.coevolution.generations
+    fresh = keys(fold(key, JUDGED), 0, settings.answer.judged)
+    judged = evaluation(problem, detailed(problem, agents_of([best]), fresh, generation), 1)
+    strangers = random_agents(problem, fold(key, RANDOM), RANDOM_AGENTS)
+    earned = returns_of(problem, strangers, keys(fold(key, RANDOM), 0, RANDOM_EPISODES), generation)
+    return Judgement(
+        best, judged, _lifetime(best, progress.state, problem, settings, key), interval(earned.mean(axis=1))
+    )
+
+
+def _lifetime(best: Architecture, state: State, problem: Problem, settings: Settings, key: int) -> Interval:
+    n_agents = settings.coevolution.agents
+    stream = fold(key, LIFETIMES)
+    newborn = born(state.culture, problem, settings, stream, n_agents)
+    agents = agents_of([best])[np.zeros(n_agents, np.int64)].living(newborn)
+    lives = live(
+        problem, agents, keys(stream, 0, n_agents), settings.coevolution.generations, settings.learning
+    )
+    return interval(lives.returns.mean(axis=1))

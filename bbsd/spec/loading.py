@@ -1,0 +1,121 @@
+"""A file to a spec and its meaning, or to everything that is wrong with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from bbsd.errors import Diagnosis, SpecError
+from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.spec.meaning import Meaning, mean
+from bbsd.spec.overrides import overrides_source, read_overrides, with_overrides
+from bbsd.spec.stand_ins import rest_of
+from bbsd.spec.validation import existing, form_mistakes, validate
+from bbsd.text import read
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from bbsd.errors import Place
+    from bbsd.spec.models import Spec
+    from bbsd.spec.overrides import Override
+    from bbsd.spec.validation import Told
+    from bbsd.text import Data, Document, Source
+
+MAX_SHOWN = 50
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A spec without mistakes: its text, its plain data after overrides, its model, and what it means."""
+
+    source: Source
+    document: Document
+    data: Data
+    spec: Spec
+    meaning: Meaning
+
+
+def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
+    """Read, validate and elaborate a spec, its constants drawn from the seed.
+
+    `overrides` are arguments PATH=VALUE. Raises SpecError with all mistakes of the file in its order, 50 at most; or
+    with those of the overrides alone, where there are any: their source has an argument on each line.
+    """
+    document = read(source)
+    given = read_overrides(overrides)
+    data = with_overrides(document.data, given, overrides)
+    spec, meaning, told = _examined(data, seed) if document.root else (None, None, [])
+    if spec is None or meaning is None or document.diagnoses:
+        diagnoses = _diagnoses(told, document, data, given)
+        own = [each for each in diagnoses if each.place.file != source.file]
+        raise SpecError(_capped(own or diagnoses), overrides_source(overrides) if own else source)
+    return Loaded(source, document, data, spec, meaning)
+
+
+def check(source: Source, seed: int = 0) -> tuple[Diagnosis, ...]:
+    """Everything that is wrong with a spec, in the order of its text, 50 mistakes at most."""
+    try:
+        load(source, seed=seed)
+    except SpecError as error:
+        return error.diagnoses
+    return ()
+
+
+def _examined(data: Data, seed: int) -> tuple[Spec | None, Meaning | None, list[Told]]:
+    spec, errors = validate(data)
+    if spec:
+        meaning, told = mean(spec, seed)
+        return spec, meaning, list(told)
+    rest = rest_of(data, errors)
+    told = mean(rest.spec, seed, rest.broken)[1] if rest else ()
+    return (
+        None,
+        None,
+        [
+            *form_mistakes(errors, data),
+            *((path, mistake) for path, mistake in told if rest and mistake.code not in rest.dependent),
+        ],
+    )
+
+
+def _diagnoses(
+    told: Iterable[Told], document: Document, data: Data, overrides: Sequence[Override]
+) -> list[Diagnosis]:
+    """All mistakes in the order of the text; what YAML itself already stumbled over is said once."""
+    stumbled = {(each.place.line, each.place.column) for each in document.diagnoses}
+    found = [
+        Diagnosis(
+            mistake.code, mistake.message, _place((path, mistake), document, data, overrides), mistake.advice
+        )
+        for path, mistake in told
+        if not (mistake.code == "BB021" and _has_merged(document))
+    ]
+    fresh = [each for each in found if (each.place.line, each.place.column) not in stumbled]
+    return sorted(dict.fromkeys([*document.diagnoses, *fresh]), key=lambda each: each.place)
+
+
+def _has_merged(document: Document) -> bool:
+    return any(each.code == "BB007" for each in document.diagnoses)
+
+
+def _place(told: Told, document: Document, data: Data, overrides: Sequence[Override]) -> Place:
+    path, mistake = told
+    there = existing(path, data)
+    span = None if mistake.span in (KEY, WHOLE) or there != path else mistake.span
+    on_key = mistake.span == KEY or any(isinstance(segment, str) for segment in path[len(there) :])
+    offset, length = (span.start, span.length) if span else (None, 1)
+    for override in reversed(overrides):
+        if there[: len(override.path)] == override.path:
+            return override.place(there[len(override.path) :], offset, on_key=on_key, length=length)
+    return document.place(there, offset, on_key, length)
+
+
+def _capped(diagnoses: Sequence[Diagnosis]) -> Sequence[Diagnosis]:
+    """The first mistakes, the last of which says how many more there are."""
+    hidden = len(diagnoses) - MAX_SHOWN
+    if hidden <= 0:
+        return diagnoses
+    *first, last = diagnoses[:MAX_SHOWN]
+    note = f"{hidden} more mistake{'s are' if hidden > 1 else ' is'} not shown"
+    return [*first, replace(last, advice=f"{last.advice}; {note}" if last.advice else note)]

@@ -1,0 +1,71 @@
+"""Generated kernels give the same bits as an interpreter written from the language's reference alone."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from bbsd.compiler import compile_meaning
+from bbsd.spec.meaning import mean
+from bbsd.spec.models import Spec
+from bbsd.text.reader import read
+from bbsd.text.source import Source
+from tests.interpreter.cells import given_table
+from tests.interpreter.constants import read_constants
+from tests.interpreter.episode import run_episode
+from tests.interpreter.made_up import specs
+from tests.interpreter.made_up_designs import random_agents
+
+SPECS = Path(__file__).parents[2] / "specs"
+SHIPPED = sorted(SPECS.glob("*.yaml"))
+
+
+def meaning_of(spec, seed):
+    meaning, mistakes = mean(spec, seed)
+    assert mistakes == ()
+    return meaning
+
+
+def compared(problem, seed, generation, n_agents, agents_seed):
+    """Live an episode of some agents in the kernel and in the interpreter, and compare all that comes out."""
+    spec = problem.meaning.spec
+    constants = read_constants(spec, seed, generation)
+    assert [list(table.given) for table in problem.tables] == [
+        given_table(behavior, spec, constants) for behavior in spec.behaviors.values()
+    ]
+    agents = random_agents(problem, n_agents, agents_seed)
+    team = problem.assemble(agents.pools, agents.members, generation)
+    outcome = team.episode(agents.keys, agents.structures)
+    detailed = team.detailed_episode(agents.keys, agents.structures)
+    for agent in range(n_agents):
+        chosen = zip(agents.pools, agents.members[agent], strict=True)
+        tables = [pool[member].tolist() for pool, member in chosen]
+        structure, key = agents.structures[agent].tolist(), int(agents.keys[agent])
+        expected = run_episode(spec, constants, tables, structure, key)
+        assert digits([outcome.returns[agent]]) == digits([expected.return_])
+        assert digits(outcome.credit[agent]) == digits(expected.credit)
+        assert digits([detailed.returns[agent]]) == digits([expected.return_])
+        assert digits(detailed.credit[agent]) == digits(expected.credit)
+        assert digits(detailed.terms[agent]) == digits(expected.terms)
+        assert detailed.taken[agent] == expected.steps
+
+
+def digits(numbers):
+    """All bits of numbers, NaN alike."""
+    return [float(number).hex() for number in numbers]
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_compiled_kernels_of_the_shipped_specs(path):
+    spec = Spec.model_validate(read(Source(path.name, path.read_text())).data)
+    problem = compile_meaning(meaning_of(spec, seed=5))
+    compared(problem, seed=5, generation=1, n_agents=4, agents_seed=1)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(specs(), st.integers(0, 2**32), st.integers(1, 3), st.sampled_from([1, 2]))
+def test_plain_kernels_of_specs_that_are_made_up(data, seed, generation, lanes):
+    spec = Spec.model_validate(data)
+    problem = compile_meaning(meaning_of(spec, seed), lanes=lanes, compiled=False)
+    compared(problem, seed, generation, n_agents=3, agents_seed=seed)

@@ -1,0 +1,89 @@
+"""Behaviors and structures that Hypothesis makes up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+from hypothesis import strategies as st
+
+from tests.interpreter.made_up_expressions import Draw, Reach, number, truth, whole
+from tests.interpreter.made_up_partitions import Partition, partition
+
+Cells = dict[str, dict[str, frozenset[int]]]
+"""For each input what its labels mean."""
+
+
+@dataclass(frozen=True)
+class Senses:
+    """What behaviors may use, and the cells of the sensors that are partitions."""
+
+    reach: Reach
+    cells: Cells
+
+
+def behavior(draw: Draw, senses: Senses) -> dict[str, Any]:
+    """A behavior as plain data."""
+    inputs, cells = some_inputs(draw, senses)
+    actions = {f"a{k}": assignments(draw, senses.reach) for k in range(draw(st.integers(1, 3)))}
+    block = {"inputs": inputs, "actions": actions}
+    if draw(st.booleans()):
+        block["excited"] = truth(draw, senses.reach)
+    if draw(st.booleans()):
+        block["rules"] = rules(draw, cells, [*actions, "no action", "open"])
+    return block
+
+
+def some_inputs(draw: Draw, senses: Senses) -> tuple[Any, Cells]:
+    """Sensors that are listed, or partitions of its own; and the labels of their cells."""
+    if draw(st.booleans()):
+        names = draw(st.lists(st.sampled_from(sorted(senses.cells)), unique=True, max_size=2))
+        return names, {name: senses.cells[name] for name in names}
+    names = ("seen", "heard")[: draw(st.integers(0, 2))]
+    own: dict[str, Partition] = {name: partition(draw, senses.reach) for name in names}
+    return {name: own[name].data for name in own}, {name: own[name].cells for name in own}
+
+
+def assignments(draw: Draw, reach: Reach) -> dict[str, str]:
+    """What an action sets."""
+    reach = replace(reach, draws=True)
+    ways = {"x": number, "y": number, "place": whole, "flag": truth}
+    chosen = draw(st.lists(st.sampled_from(sorted(ways)), unique=True, min_size=1, max_size=3))
+    return {name: ways[name](draw, reach, 2) for name in chosen}
+
+
+def rules(draw: Draw, cells: Cells, decisions: list[str]) -> list[dict[str, Any]]:
+    """Rules for some of the cells; none that has nothing left to decide."""
+    decision = st.sampled_from(decisions)
+    left = set(product(*(frozenset().union(*labels.values()) for labels in cells.values())))
+    found: list[dict[str, Any]] = []
+    for _ in range(draw(st.integers(0, 3)) if cells else 0):
+        when = some_cells(draw, cells)
+        matched = {cell for cell in left if matches(cell, when, cells)}
+        if matched:
+            found.append({"when": when, "do": draw(decision)})
+            left -= matched
+    if left and (not found or draw(st.booleans())):
+        found.append({"otherwise": draw(decision)})
+    return found
+
+
+def some_cells(draw: Draw, cells: Cells) -> dict[str, list[str]]:
+    """Cells of one input or more."""
+    names = draw(st.lists(st.sampled_from(sorted(cells)), unique=True, min_size=1))
+    labels = {name: st.sampled_from(sorted(cells[name])) for name in names}
+    return {name: draw(st.lists(labels[name], unique=True, min_size=1, max_size=2)) for name in names}
+
+
+def matches(cell: tuple[int, ...], when: dict[str, list[str]], cells: Cells) -> bool:
+    at = dict(zip(cells, cell, strict=True))
+    return all(any(at[name] in cells[name][label] for label in labels) for name, labels in when.items())
+
+
+def structure(draw: Draw, behaviors: list[str]) -> dict[str, Any]:
+    """No structure, or layers that are given or open, as many as there are behaviors or fewer."""
+    if draw(st.booleans()):
+        return {}
+    layers = draw(st.permutations(behaviors))[: draw(st.integers(1, len(behaviors)))]
+    return {"structure": [draw(st.sampled_from([layer, layer, "open"])) for layer in layers]}

@@ -1,0 +1,281 @@
+"""Expressions that Hypothesis makes up: well typed for the place where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from hypothesis import strategies as st
+
+from bbsd.expression.vocabulary import FUNCTIONS
+
+Draw = Any
+"""What Hypothesis gives to a composite strategy."""
+
+Writer = Callable[[Draw, "Reach", int], str]
+"""Writes an expression within a reach, nested at most so deep."""
+
+LITERALS = ("0", "1", "2", "3", "0.1", "0.5", "2.5", "10", "1e-3", "pi")
+WHOLE_LITERALS = ("0", "1", "2", "3", "7")
+EXPONENTS = ("2", "3", "-1", "-2", "0", "0.5", "1.5")
+DEPTH = 3
+
+
+@dataclass(frozen=True)
+class Reach:
+    """What an expression may use: names by what they hold."""
+
+    robots: int
+    numbers: tuple[str, ...] = ()
+    truths: tuple[str, ...] = ()
+    wholes: tuple[str, ...] = ()
+    lists: tuple[tuple[str, int], ...] = ()
+    tables: tuple[tuple[str, int, int], ...] = ()
+    numbers_of_robots: tuple[str, ...] = ()
+    truths_of_robots: tuple[str, ...] = ()
+    definitions: tuple[tuple[str, int], ...] = ()
+    team: bool = False
+    others: bool = False
+    draws: bool = False
+    before: bool = False
+    bound: int = 0
+    """Names bound by generators around, so that new ones differ."""
+
+    def binding(self, *, numbers: int = 0, wholes: int = 0) -> tuple[Reach, tuple[str, ...]]:
+        """What can be used where a generator binds more names, and these names."""
+        names = tuple(f"v{self.bound + k}" for k in range(numbers + wholes))
+        inner = replace(self, bound=self.bound + len(names))
+        if numbers:
+            return replace(inner, numbers=self.numbers + names), names
+        return replace(inner, wholes=self.wholes + names), names
+
+
+def number(draw: Draw, reach: Reach, depth: int = DEPTH) -> str:
+    """An expression for a number."""
+    return one_way(draw, numbers(reach, depth))(draw, reach, depth - 1)
+
+
+def truth(draw: Draw, reach: Reach, depth: int = DEPTH) -> str:
+    """An expression for a truth."""
+    return one_way(draw, truths(reach, depth))(draw, reach, depth - 1)
+
+
+def whole(draw: Draw, reach: Reach, depth: int = DEPTH) -> str:
+    """An expression for a number that is always whole."""
+    return one_way(draw, wholes(reach, depth))(draw, reach, depth - 1)
+
+
+def one_way(draw: Draw, ways: Sequence[Writer]) -> Writer:
+    way: Writer = draw(st.sampled_from(ways))
+    return way
+
+
+def numbers(reach: Reach, depth: int) -> list[Writer]:
+    """All ways to write a number."""
+    leaves = [one_of(LITERALS)] + [one_of(names) for names in (reach.numbers, reach.wholes) if names] * 2
+    if depth <= 0:
+        return leaves
+    deep = [function, binary, binary, power, conditional(number), several, negated]
+    if reach.lists:
+        deep += [element, aggregate_of_list, over_list]
+    if reach.tables:
+        deep += [element_of_table, over_rows]
+    if reach.team and reach.numbers_of_robots:
+        deep += [of_robot(reach.numbers_of_robots), over_team, first_best]
+    if reach.definitions:
+        deep += [defined, defined]
+    if reach.before:
+        deep += [earlier(number)]
+    if reach.draws:
+        deep += [drawn, drawn]
+    return leaves + deep + [over_range, whole]
+
+
+def truths(reach: Reach, depth: int) -> list[Writer]:
+    """All ways to write a truth."""
+    leaves = [one_of(("true", "false"))] + [one_of(reach.truths)] * 2 * bool(reach.truths)
+    if depth <= 0:
+        return leaves
+    deep = [comparison, comparison, chain, joined, denied, conditional(truth)]
+    if reach.lists:
+        deep += [any_of_list]
+    if reach.team and reach.truths_of_robots:
+        deep += [of_robot(reach.truths_of_robots)]
+    if reach.before:
+        deep += [earlier(truth)]
+    if reach.draws:
+        deep += [chance]
+    return leaves + deep
+
+
+def wholes(reach: Reach, depth: int) -> list[Writer]:
+    """All ways to write a whole number."""
+    leaves = [one_of(WHOLE_LITERALS)] + [one_of(reach.wholes)] * 2 * bool(reach.wholes)
+    if depth <= 0:
+        return leaves
+    return leaves + [rounded, rounded, whole_sum] + [integers] * reach.draws
+
+
+def one_of(texts: Sequence[str]) -> Writer:
+    return lambda draw, _reach, _depth: str(draw(st.sampled_from(texts)))
+
+
+def function(draw: Draw, reach: Reach, depth: int) -> str:
+    name = draw(st.sampled_from(sorted(FUNCTIONS)))
+    arguments = [number(draw, reach, depth) for _ in range(FUNCTIONS[name].arity)]
+    return f"{name}({', '.join(arguments)})"
+
+
+def binary(draw: Draw, reach: Reach, depth: int) -> str:
+    operator = draw(st.sampled_from(["+", "-", "*", "/", "//", "%"]))
+    left, right = number(draw, reach, depth), number(draw, reach, depth)
+    return draw(st.sampled_from([f"({left} {operator} {right})", f"{left} {operator} ({right})"]))
+
+
+def power(draw: Draw, reach: Reach, depth: int) -> str:
+    return f"({number(draw, reach, depth)}) ** {draw(st.sampled_from(EXPONENTS))}"
+
+
+def negated(draw: Draw, reach: Reach, depth: int) -> str:
+    return f"(-({number(draw, reach, depth)}))"
+
+
+def conditional(arm: Writer) -> Writer:
+    def write(draw: Draw, reach: Reach, depth: int) -> str:
+        then, otherwise = arm(draw, reach, depth), arm(draw, reach, depth)
+        return f"({then} if {truth(draw, reach, depth)} else {otherwise})"
+
+    return write
+
+
+def several(draw: Draw, reach: Reach, depth: int) -> str:
+    name = draw(st.sampled_from(["min", "max", "sum", "mean"]))
+    count = draw(st.integers(2, 3))
+    return f"{name}({', '.join(number(draw, reach, depth) for _ in range(count))})"
+
+
+def folded(draw: Draw, element_text: str, names: Sequence[str], source: str) -> str:
+    name = draw(st.sampled_from(["min", "max", "sum", "mean"]))
+    return f"{name}({element_text} for {', '.join(names)} in {source})"
+
+
+def element(draw: Draw, reach: Reach, depth: int) -> str:
+    name, length = draw(st.sampled_from(reach.lists))
+    return f"{name}[{index(draw, reach, depth, length)}]"
+
+
+def index(draw: Draw, reach: Reach, depth: int, length: int) -> str:
+    """A plain index in the range, or a computed one that may be beyond."""
+    if draw(st.booleans()):
+        return str(draw(st.integers(0, length - 1)))
+    return f"0 + {whole(draw, reach, depth)}" if depth > 0 else f"floor({number(draw, reach, depth)})"
+
+
+def aggregate_of_list(draw: Draw, reach: Reach, _depth: int) -> str:
+    name, _ = draw(st.sampled_from(reach.lists))
+    return f"{draw(st.sampled_from(['min', 'max', 'sum', 'mean']))}({name})"
+
+
+def over_list(draw: Draw, reach: Reach, depth: int) -> str:
+    name, _ = draw(st.sampled_from(reach.lists))
+    inner, names = reach.binding(numbers=1)
+    return folded(draw, number(draw, inner, depth), names, name)
+
+
+def element_of_table(draw: Draw, reach: Reach, depth: int) -> str:
+    name, rows, columns = draw(st.sampled_from(reach.tables))
+    return f"{name}[{index(draw, reach, depth, rows)}][{index(draw, reach, depth, columns)}]"
+
+
+def over_rows(draw: Draw, reach: Reach, depth: int) -> str:
+    name, _, columns = draw(st.sampled_from(reach.tables))
+    inner, names = reach.binding(numbers=columns)
+    return folded(draw, number(draw, inner, depth), names, name)
+
+
+def over_range(draw: Draw, reach: Reach, depth: int) -> str:
+    inner, names = reach.binding(wholes=1)
+    return folded(draw, number(draw, inner, depth), names, f"range({draw(st.integers(1, 3))})")
+
+
+def of_robot(names: Sequence[str]) -> Writer:
+    def write(draw: Draw, reach: Reach, depth: int) -> str:
+        name = draw(st.sampled_from(names))
+        return f"{name}[{index(draw, reach, depth, reach.robots)}]"
+
+    return write
+
+
+def over_team(draw: Draw, reach: Reach, depth: int) -> str:
+    inner, names = reach.binding(wholes=1)
+    theirs = tuple(f"{name}[{names[0]}]" for name in reach.numbers_of_robots)
+    inner = replace(inner, numbers=inner.numbers + theirs)
+    source = draw(st.sampled_from(["team", "others"] if reach.others else ["team"]))
+    return folded(draw, number(draw, inner, depth), names, source)
+
+
+def first_best(draw: Draw, reach: Reach, _depth: int) -> str:
+    name = draw(st.sampled_from(["argmin", "argmax"]))
+    _, (each,) = reach.binding(wholes=1)
+    return f"{name}({draw(st.sampled_from(reach.numbers_of_robots))}[{each}] for {each} in team)"
+
+
+def defined(draw: Draw, reach: Reach, depth: int) -> str:
+    name, parameters = draw(st.sampled_from(reach.definitions))
+    arguments = ", ".join(number(draw, reach, depth) for _ in range(parameters))
+    return f"{name}({arguments})" if parameters else name
+
+
+def earlier(what: Writer) -> Writer:
+    def write(draw: Draw, reach: Reach, depth: int) -> str:
+        return f"before({what(draw, replace(reach, before=False, draws=False), depth)})"
+
+    return write
+
+
+def drawn(draw: Draw, reach: Reach, depth: int) -> str:
+    name = draw(st.sampled_from(["uniform", "normal"]))
+    return f"{name}({number(draw, reach, depth)}, {number(draw, reach, depth)})"
+
+
+def integers(draw: Draw, reach: Reach, depth: int) -> str:
+    return f"integers({whole(draw, reach, depth)}, {whole(draw, reach, depth)})"
+
+
+def chance(draw: Draw, reach: Reach, depth: int) -> str:
+    return f"chance({number(draw, reach, depth)})"
+
+
+def comparison(draw: Draw, reach: Reach, depth: int) -> str:
+    operator = draw(st.sampled_from(["<", "<=", ">", ">=", "==", "!="]))
+    return f"({number(draw, reach, depth)} {operator} {number(draw, reach, depth)})"
+
+
+def chain(draw: Draw, reach: Reach, depth: int) -> str:
+    first, second, third = (number(draw, reach, depth) for _ in range(3))
+    return f"({first} <= {second} < {third})"
+
+
+def joined(draw: Draw, reach: Reach, depth: int) -> str:
+    operator = draw(st.sampled_from(["and", "or"]))
+    return f"({truth(draw, reach, depth)} {operator} {truth(draw, reach, depth)})"
+
+
+def denied(draw: Draw, reach: Reach, depth: int) -> str:
+    return f"(not {truth(draw, reach, depth)})"
+
+
+def any_of_list(draw: Draw, reach: Reach, depth: int) -> str:
+    name, _ = draw(st.sampled_from(reach.lists))
+    inner, (each,) = reach.binding(numbers=1)
+    return f"{draw(st.sampled_from(['any', 'all']))}({truth(draw, inner, depth)} for {each} in {name})"
+
+
+def rounded(draw: Draw, reach: Reach, depth: int) -> str:
+    return f"{draw(st.sampled_from(['floor', 'ceil', 'round']))}({number(draw, reach, depth)})"
+
+
+def whole_sum(draw: Draw, reach: Reach, depth: int) -> str:
+    operator = draw(st.sampled_from(["+", "-", "*"]))
+    return f"({whole(draw, reach, depth)} {operator} {whole(draw, reach, depth)})"

@@ -1,0 +1,92 @@
+import json
+
+from bbsd.errors import Diagnosis, Place, escape, render_json, render_text
+
+UNEXPECTED = Diagnosis(
+    "BB012",
+    'unexpected key "modlues"; did you mean "modules"?',
+    Place("spec.yaml", 12, 3, 7),
+    "advice, when there is one",
+)
+
+
+def caret_line(source_line: str, column: int, length: int = 1) -> str:
+    diagnosis = Diagnosis("BB004", "wrong", Place("spec.yaml", 1, column, length))
+    return render_text(diagnosis, source_line).split("\n")[2]
+
+
+def test_a_diagnosis_shows_its_line_a_caret_and_the_advice() -> None:
+    assert render_text(UNEXPECTED, "  modlues: {}").split("\n") == [
+        'spec.yaml:12:3: error[BB012]: unexpected key "modlues"; did you mean "modules"?',
+        "   12 |   modlues: {}",
+        "      |   ^^^^^^^",
+        "      = advice, when there is one",
+    ]
+
+
+def test_without_a_source_line_only_the_message_is_shown() -> None:
+    diagnosis = Diagnosis("BB001", "there is no such file", Place("spec.yaml", 1, 1))
+    assert render_text(diagnosis, "") == "spec.yaml:1:1: error[BB001]: there is no such file"
+
+
+def test_tabs_are_shown_as_blanks_and_the_caret_stays_below() -> None:
+    assert caret_line("\tx: y", column=2) == "      |     ^"
+
+
+def test_wide_characters_move_the_caret_by_two_columns() -> None:
+    assert caret_line("速度: y", column=5) == "      |       ^"
+    assert caret_line("速度: y", column=1, length=2) == "      | ^^^^"
+
+
+def test_combining_characters_do_not_move_the_caret() -> None:
+    assert caret_line("e\u0301: y", column=5) == "      |    ^"
+
+
+def test_a_place_behind_the_end_of_the_line_is_marked_there() -> None:
+    assert caret_line("x:", column=3) == "      |   ^"
+
+
+def test_control_and_format_characters_are_written_out() -> None:
+    hostile = Diagnosis("BB004", "name \x1b[2J\n", Place("\x07.yaml", 1, 2), "\u202e")
+    text = render_text(hostile, "\x1bx")
+    assert "\x1b" not in text
+    assert text.split("\n") == [
+        "\\x07.yaml:1:2: error[BB004]: name \\x1b[2J\\n",
+        "    1 | \\x1bx",
+        "      |     ^",
+        "      = \\u202e",
+    ]
+
+
+def test_no_break_blanks_and_letters_of_all_scripts_are_left() -> None:
+    assert escape("a\xa0Ä速🙂") == "a\xa0Ä速🙂"
+
+
+def test_a_long_line_is_shown_around_the_place() -> None:
+    lines = render_text(Diagnosis("BB004", "wrong", Place("s", 1, 501)), "a" * 500 + "!" + "b" * 500).split(
+        "\n"
+    )
+    assert len(lines[1]) < 200
+    assert lines[1][lines[2].index("^")] == "!"
+    assert lines[1].count("…") == 2
+
+
+def test_color_changes_nothing_but_color() -> None:
+    colored = render_text(UNEXPECTED, "  modlues: {}", color=True)
+    assert "\x1b[1;31merror[BB012]\x1b[0m" in colored
+    for style in ("\x1b[1;31m", "\x1b[1;34m", "\x1b[1m", "\x1b[0m"):
+        colored = colored.replace(style, "")
+    assert colored == render_text(UNEXPECTED, "  modlues: {}")
+
+
+def test_json_has_the_place_code_message_and_advice() -> None:
+    (rendered,) = json.loads(json.dumps(render_json([UNEXPECTED])))
+    assert rendered == {
+        "file": "spec.yaml",
+        "line": 12,
+        "column": 3,
+        "end_column": 10,
+        "code": "BB012",
+        "message": 'unexpected key "modlues"; did you mean "modules"?',
+        "advice": "advice, when there is one",
+    }

@@ -1,0 +1,17 @@
+from bbsd.errors import did_you_mean
+
+
+def test_a_near_name_is_suggested() -> None:
+    assert did_you_mean("modlues", ["behaviors", "modules"]) == '; did you mean "modules"?'
+
+
+def test_nothing_is_suggested_where_nothing_is_near() -> None:
+    assert did_you_mean("reward", ["structure", "x"]) == ""
+
+
+def test_nothing_is_suggested_among_no_names() -> None:
+    assert did_you_mean("reward", iter(())) == ""
+
+
+def test_a_very_long_word_is_not_compared() -> None:
+    assert did_you_mean("a" * 1000, ["a" * 1001]) == ""

@@ -1,0 +1,66 @@
+"""Results as the evaluation makes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bbsd.evaluation import Evaluation, Interval, Trace
+
+
+@dataclass(frozen=True)
+class Designed:
+    architecture: Path
+    structure: tuple[str, ...]
+    evaluation: Evaluation
+    lifetime: Interval
+    random: Interval
+    seconds: float
+
+
+@pytest.fixture
+def evaluation():
+    return Evaluation(
+        returns=Interval(301.3734, 7.02, 300.938, 301.809, 1000),
+        episodes=1000,
+        agents=1,
+        reward_terms={"leveling": -12.11, "near_goal": 212.2},
+        control_share={"stop_at_goal": 0.75, "nobody": 0.25},
+        steps=300.0,
+        not_finite={},
+    )
+
+
+@pytest.fixture
+def designed(evaluation):
+    return Designed(
+        Path("runs/lifting-seed0/architecture.yaml"),
+        ("stop_at_goal", "push_more"),
+        evaluation,
+        lifetime=Interval(299.2, 20.0, 296.2, 302.2, 200),
+        random=Interval(-612.3, 300.0, -642.5, -582.1, 1000),
+        seconds=41.2,
+    )
+
+
+@pytest.fixture
+def trace():
+    values = {
+        ("height", 0, ()): [2.0, 2.5, 3.0],
+        ("height", 1, ()): [2.1, 2.1, 2.1],
+        ("tilt", 0, ()): [9.0, 4.0, 1.0],
+        ("tilt", 1, ()): [9.0, 4.0, 1.0],
+        ("tilted", 0, ()): [1.0, 0.0, 0.0],
+        ("tilted", 1, ()): [1.0, 0.0, 0.0],
+        ("place", 0, ()): ["lowest", "highest", "highest"],
+        ("place", 1, ()): ["highest", "lowest", "lowest"],
+        ("sonar", 0, ()): [0.5, 0.25, 0.125],
+        ("sonar", 1, ()): [7.0, 7.0, 7.0],
+    }
+    controlling = [["push_more", "push_more", "stop_at_goal"], ["push_more", "nobody", "push_more"]]
+    rewards = {"near_goal": [np.array([0.1, 0.2, 1.0]), np.array([0.1, 0.2, 0.3])]}
+    actions = [["push", "push", "stop"], ["push", "", "push"]]
+    return Trace(np.arange(1, 4), values, controlling, actions, rewards, robots=2)

@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+from math import exp
+
+import pytest
+
+from bbsd.report.figures import FigureError, curves
+from bbsd.report.figures.curves import _points
+
+
+def metrics(runs, generations=4):
+    return [
+        {
+            "run": run,
+            "generation": generation,
+            "mean": run * 10.0 - exp(-generation),
+            "best": run * 20.0,
+            "lifetime": run * 5.0,
+            "diversity": {"push": 0.5 / generation, "stop": 0.0},
+        }
+        for run in range(1, runs + 1)
+        for generation in range(1, generations + 1)
+    ]
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+def test_the_same_metrics_give_the_same_bytes(tmp_path, suffix):
+    first, second = tmp_path / f"first{suffix}", tmp_path / f"second{suffix}"
+    for path in (first, second):
+        curves(metrics(2), path)
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_a_drawing_names_its_lines_and_holds_neither_date_nor_program(tmp_path):
+    curves(metrics(1), tmp_path / "curves.svg")
+    text = (tmp_path / "curves.svg").read_text()
+    for words in ("mean of the agents", "best agent", "mean lifetime fitness", "push", "stop", "generation"):
+        assert f"<!-- {words} -->" in text
+    assert "<dc:date>" not in text
+    assert "matplotlib v" not in text.lower()
+
+
+@pytest.mark.parametrize("lines", [[], metrics(1, generations=1)])
+def test_runs_that_have_hardly_begun_can_be_drawn(tmp_path, lines):
+    curves(lines, tmp_path / "curves.png")
+    assert (tmp_path / "curves.png").stat().st_size > 1000
+
+
+def test_several_runs_are_drawn_as_their_mean_even_if_one_is_not_done():
+    lines = metrics(2)[:-1]
+    assert _points(lines, ("lifetime",)) == ([1, 2, 3, 4], [7.5, 7.5, 7.5, 5.0])
+    assert _points(lines, ("diversity", "push"), run=2) == ([1, 2, 3], [0.5, 0.25, 0.5 / 3])
+
+
+def test_a_kind_of_file_that_cannot_be_drawn_is_refused(tmp_path):
+    with pytest.raises(FigureError, match=r"curves\.gif: a figure is a \.png, \.svg, \.pdf file"):
+        curves(metrics(1), tmp_path / "curves.gif")
+
+
+def test_without_matplotlib_it_says_how_to_install_it(tmp_path, monkeypatch):
+    monkeypatch.setattr("bbsd.report.figures.files.find_spec", lambda name: None)
+    with pytest.raises(FigureError, match=r'pip install "bbsd\[plot\]"'):
+        curves(metrics(1), tmp_path / "curves.png")

@@ -1,0 +1,47 @@
+from __future__ import annotations
+
+from math import inf, nan
+
+import pytest
+
+from bbsd.report.numbers import column, count, duration, number, percent
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (301.3734, "301.37"),
+        (-0.716518, "-0.7165"),
+        (12345678.0, "12345678"),
+        (0.0, "0.0000"),
+        (2.5e-7, "2.5000e-07"),
+        (-3e12, "-3.0000e+12"),
+        (nan, "unknown"),
+        (inf, "infinite"),
+        (-inf, "-infinite"),
+    ],
+)
+def test_a_number_has_five_digits(value, text):
+    assert number(value) == text
+
+
+def test_a_column_has_as_many_decimals_everywhere_as_its_largest_number():
+    assert column([301.3734, -1.5, 0.004]) == ["301.37", "-1.50", "0.00"]
+
+
+def test_what_rounds_to_zero_has_no_sign():
+    assert column([100.0, -1e-9]) == ["100.00", "0.00"]
+
+
+def test_an_empty_column_is_empty():
+    assert column([]) == []
+
+
+def test_unknown_numbers_do_not_spoil_the_decimals_of_the_others():
+    assert column([nan, 12.0]) == ["unknown", "12.000"]
+
+
+def test_shares_times_and_counts_read_as_people_say_them():
+    assert (percent(0.1234), percent(nan)) == ("12.3 %", "unknown")
+    assert [duration(s) for s in (8.14, 185.0, 7800.0)] == ["8.1 s", "3 min 5 s", "2 h 10 min"]
+    assert [count(n, "agent") for n in (0, 1, 20000)] == ["0 agents", "1 agent", "20,000 agents"]

@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+from dataclasses import dataclass
+from io import StringIO
+
+from rich.console import Console
+
+from bbsd.report.progress import progress, standing
+
+
+@dataclass(frozen=True)
+class Generation:
+    run: int
+    runs: int
+    generation: int
+    generations: int
+    mean: float = 250.5
+    best: float = 301.25
+    lifetime: float = -12.0
+
+
+def told(console, generations, **options):
+    with progress(console, **options) as listener:
+        for generation in generations:
+            listener(generation)
+    return console.file.getvalue()
+
+
+def test_a_plain_line_says_where_a_run_is_and_how_well_its_agents_do():
+    expected = "generation 3/50: mean 250.50, best 301.25, lifetime -12.00"
+    assert standing(Generation(1, 1, 3, 50)) == expected
+    assert standing(Generation(2, 4, 3, 50)) == f"run 2/4, {expected}"
+
+
+def test_without_a_terminal_there_is_a_line_for_each_tenth_of_a_run():
+    text = told(Console(file=StringIO(), width=20), [Generation(1, 1, g, 50) for g in range(1, 51)])
+    assert [line.split(":")[0] for line in text.splitlines()] == [
+        f"generation {g}/50" for g in range(5, 51, 5)
+    ]
+
+
+def test_a_short_run_has_a_line_for_each_generation():
+    text = told(Console(file=StringIO()), [Generation(1, 1, g, 3) for g in (1, 2, 3)])
+    assert len(text.splitlines()) == 3
+
+
+def test_quiet_says_nothing():
+    generations = [Generation(1, 1, g, 3) for g in (1, 2, 3)]
+    for terminal in (False, True):
+        assert told(Console(file=StringIO(), force_terminal=terminal), generations, quiet=True) == ""
+
+
+def test_a_terminal_shows_one_line_with_a_curve_that_starts_anew_with_each_run():
+    console = Console(file=StringIO(), force_terminal=True, width=120, color_system=None)
+    first = [Generation(1, 2, g, 4, mean=float(g)) for g in (1, 2, 3, 4)]
+    text = told(console, [*first, Generation(2, 2, 1, 4)])
+    assert "run 2/2, generation 1/4 mean 250.50, best 301.25, lifetime -12.00 ▅ " in text
+
+
+def test_the_live_line_fits_into_80_columns():
+    console = Console(file=StringIO(), force_terminal=True, width=80, color_system=None)
+    text = told(console, [Generation(3, 8, 25, 100, mean=-1250.0)])
+    assert "run 3/8, generation 25/100 mean -1250.0, best 301.2, lifetime -12.0" in text

@@ -1,0 +1,92 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from io import StringIO
+from math import nan
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from bbsd.evaluation import Interval
+from bbsd.report.tables import design_table, evaluation_table
+
+
+def printed(table, width=100):
+    console = Console(file=StringIO(), width=width, color_system=None)
+    console.print(table)
+    return "\n".join(line.rstrip() for line in console.file.getvalue().splitlines())
+
+
+def row(text, first):
+    return next(line.split() for line in text.splitlines() if line.startswith(first))
+
+
+def test_an_evaluation_shows_the_return_with_its_interval_and_basis(evaluation):
+    assert "301.37   7.02                 300.94 to 301.81\n1,000 episodes, each of 300 steps" in printed(
+        evaluation_table(evaluation)
+    )
+
+
+def test_an_evaluation_shows_each_reward_term_and_who_was_in_control(evaluation):
+    text = printed(evaluation_table(evaluation))
+    assert row(text, "leveling") == ["leveling", "-12.11"]
+    assert row(text, "stop_at_goal") == ["stop_at_goal", "75.0", "%", "█" * 18]
+    assert row(text, "nobody") == ["nobody", "25.0", "%", "█" * 6]
+
+
+def test_bars_are_ascii_where_the_output_has_no_blocks(evaluation):
+    assert printed(evaluation_table(evaluation, blocks=False)).isascii()
+
+
+def test_values_that_were_not_finite_are_listed_only_where_there_were_any(evaluation):
+    heading = "infinite or not a number"
+    assert heading not in printed(evaluation_table(evaluation))
+    text = printed(evaluation_table(replace(evaluation, not_finite={"tilt_0": 12})))
+    assert heading in text
+    assert row(text, "tilt_0") == ["tilt_0", "12"]
+
+
+def test_one_episode_has_no_interval(evaluation):
+    lone = replace(evaluation, returns=Interval(3.0, nan, nan, nan, 1), episodes=1)
+    assert "unknown to unknown\n1 episode, each of 300 steps" in printed(evaluation_table(lone))
+
+
+def test_an_exact_evaluation_has_no_interval_either(evaluation):
+    text = printed(evaluation_table(replace(evaluation, exact=True, episodes=25, steps=1.0)))
+    assert "exact\nall 25 starts, each of 1 step" in text
+
+
+def test_several_agents_and_episodes_of_different_length_are_told(evaluation):
+    text = printed(evaluation_table(replace(evaluation, agents=50, steps=12.25)))
+    assert "1,000 episodes by 50 agents, each of 12.2 steps on average" in text
+
+
+def test_a_design_shows_its_structure_from_the_highest_layer_down(designed):
+    lines = printed(design_table(designed)).splitlines()
+    assert [line.split() for line in lines[:3]] == [
+        ["layer", "behavior"],
+        ["2", "stop_at_goal"],
+        ["1", "push_more"],
+    ]
+
+
+def test_a_design_is_compared_with_random_agents(designed):
+    text = printed(design_table(designed))
+    assert row(text, "fitness")[1:5] == ["301.37", "300.94", "to", "301.81"]
+    assert row(text, "lifetime")[2:6] == ["299.20", "296.20", "to", "302.20"]
+    assert row(text, "random")[2:6] == ["-612.30", "-642.50", "to", "-582.10"]
+    assert "runs/lifting-seed0/architecture.yaml, designed in 41.2 s" in text
+
+
+@pytest.mark.parametrize("width", [80, 40, 20])
+def test_tables_keep_to_the_width_of_the_terminal(evaluation, designed, width):
+    for table in (evaluation_table(evaluation), design_table(designed)):
+        assert max(map(len, printed(table, width).splitlines())) <= width
+
+
+def test_texts_are_no_markup_and_do_not_steer_the_terminal(designed):
+    strange = replace(designed, architecture=Path("[bold]a[/bold]\x1b[31m.yaml"), structure=("[red]x",))
+    text = printed(design_table(strange))
+    assert "[bold]a[/bold]\\x1b[31m.yaml" in text
+    assert "[red]x" in text
