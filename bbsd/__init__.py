@@ -1,8 +1,24 @@
 """Automatic design of behavior-based agents from a declarative spec.
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
-spec with the holes filled. The verbs are the command line's: `load`, `check`, `compile`, `design`,
-`evaluate`, `explain`.
+spec with the holes filled. The verbs are the command line's: `load`, `check`, `compile`, `design`, `evaluate`,
+`explain`, and `trace` for one episode; `bbsd.api` says what each takes and gives.
 """
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bbsd.api import check, compile, design, evaluate, explain, load, trace  # noqa: A004 - the verb
+
 __version__ = "0.1.0"
+
+__all__ = ["check", "compile", "design", "evaluate", "explain", "load", "trace"]
+
+
+def __getattr__(name: str) -> object:
+    """The verbs, imported when the first of them is used: numba alone takes an eighth of a second."""
+    if name not in __all__:
+        raise AttributeError(f"module 'bbsd' has no attribute {name!r}")
+    from bbsd import api
+
+    return getattr(api, name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,8 +12,8 @@ import numpy as np
 
 from bbsd.architecture import Architecture, given_architecture, spec_changes
 from bbsd.compiler import Problem, compile_meaning
-from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.compiler.frame import Detail
+from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.compiler.source import module_source
 from bbsd.errors import Diagnosis, SpecError
 from bbsd.evaluation import (
@@ -33,14 +33,15 @@ from bbsd.explanation import explain as explain_architecture
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import run as runs
-from bbsd.solver.folder import Folder, identity, new_folder, old_folder
+from bbsd.solver.folder import Folder, Identity, identity, new_folder, old_folder
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.spec.loading import Loaded
 from bbsd.spec.loading import check as check_source
 from bbsd.spec.loading import load as load_source
 from bbsd.spec.meaning import Meaning, seed_key
-from bbsd.text import Source, replace_blocks
+from bbsd.spec.overrides import read_overrides
+from bbsd.text import DELETE, Source, replace_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -209,38 +210,38 @@ def design(
     problem = compile_meaning(loaded.meaning, lanes=lanes)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
-    folder = _folder(
-        loaded, seed, runs, Path(out) if out else None, resume=resume, overrides=tuple(overrides)
-    )
+    who = identity(loaded.source.text, tuple(overrides), seed, runs)
+    folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
     with _reward_at_its_place(loaded):
         try:
-            judged = _run(loaded, problem, folder, seed, runs, progress)
+            judged = _run(loaded, problem, folder, who, progress)
         except KeyboardInterrupt:
             raise Interrupted(folder.path) from None
-    folder.architecture.write_text(
-        designed_text(loaded, problem.meaning, judged.architecture), encoding="utf-8"
-    )
+    text = designed_text(loaded, problem.meaning, judged.architecture, overrides)
+    folder.architecture.write_text(text, encoding="utf-8")
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
+    folder.write_note(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
     seconds = time.monotonic() - began
     return Designed(
         folder.architecture, folder.path, names, judged.evaluation, judged.lifetime, judged.random, seconds
     )
 
 
-def designed_text(loaded: Loaded, meaning: Meaning, architecture: Architecture) -> str:
-    """The designer's file with its holes filled; everything else is as it was."""
-    return replace_blocks(loaded.document, spec_changes(meaning, architecture), after="behaviors")
+def designed_text(
+    loaded: Loaded, meaning: Meaning, architecture: Architecture, overrides: Sequence[str] = ()
+) -> str:
+    """The designer's file with what was set and its holes filled; everything else is as it was."""
+    given = {each.path: DELETE if each.value is None else each.value for each in read_overrides(overrides)}
+    changes = {**given, **spec_changes(meaning, architecture)}
+    return replace_blocks(loaded.document, changes, after="behaviors")
 
 
-def _folder(
-    loaded: Loaded, seed: int, n_runs: int, out: Path | None, *, resume: bool, overrides: tuple[str, ...]
-) -> Folder:
-    who = identity(loaded.source.text, overrides, seed, n_runs)
+def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:
     name = Path(loaded.source.file).stem
     if resume:
-        return old_folder(out, name, seed, who)
-    folder = new_folder(out, name, seed)
-    (folder.path / "spec.yaml").write_text(loaded.source.text, encoding="utf-8")
+        return old_folder(out, name, who)
+    folder = new_folder(out, name, who.seed)
+    folder.copy_spec(loaded.source.text)
     folder.write_note(who)
     return folder
 
@@ -249,21 +250,19 @@ def _run(
     loaded: Loaded,
     problem: Problem,
     folder: Folder,
-    seed: int,
-    n_runs: int,
+    who: Identity,
     tell: Callable[[Progress], None] | None,
 ) -> runs.Judgement:
     settings = settings_of(loaded.meaning)
-    reached = folder.progress() or runs.start(problem, settings, seed)
-    for progress, line in runs.generations(reached, problem, settings, seed, n_runs):
+    reached = folder.progress() or runs.start(problem, settings, who.seed)
+    for progress, line in runs.generations(reached, problem, settings, who.seed, who.runs):
         reached = progress
         folder.save(progress, line)
         if tell is not None and line is not None:
             figures = (line["mean"], line["best"], line["lifetime"])
-            tell(
-                Progress(line["run"], n_runs, line["generation"], settings.coevolution.generations, *figures)
-            )
-    return runs.judge(reached, problem, settings, seed)
+            generations = settings.coevolution.generations
+            tell(Progress(line["run"], who.runs, line["generation"], generations, *figures))
+    return runs.judge(reached, problem, settings, who.seed)
 
 
 @contextmanager

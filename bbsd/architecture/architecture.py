@@ -49,12 +49,8 @@ def holes(problem: Problem) -> list[str]:
     """What a spec leaves to be designed, in words: `stop: 2 of 2 cells open`, `5 of 5 layers open`."""
     layers = problem.layers.tolist()
     n_open = layers.count(OPEN_LAYER)
-    concerned = [table for index, table in enumerate(problem.tables) if n_open or index in layers]
-    cells = [
-        f"{table.name}: {table.n_open} of {_counted(table.n_cells, 'cell')} open"
-        for table in concerned
-        if table.n_open
-    ]
+    evolved = [table for index, table in enumerate(problem.tables) if problem.evolves(index)]
+    cells = [f"{table.name}: {table.n_open} of {_counted(table.n_cells, 'cell')} open" for table in evolved]
     return cells + ([f"{n_open} of {_counted(len(layers), 'layer')} open"] if n_open else [])
 
 

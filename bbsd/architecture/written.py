@@ -28,14 +28,15 @@ def spec_changes(meaning: Meaning, architecture: Architecture) -> dict[DataPath,
 
 
 def _rules(meaning: Meaning, architecture: Architecture) -> dict[DataPath, Data]:
+    modules = zip(meaning.episode.modules, architecture.tables, strict=True)
     return {
         ("behaviors", module.name, "rules"): [
             *rules_of(
                 table, module.inputs, [*module.actions], meaning.spec.behaviors[module.name].rules or ()
             )
         ]
-        for module, table in zip(meaning.episode.modules, architecture.tables, strict=True)
-        if module.table.is_open
+        for index, (module, table) in enumerate(modules)
+        if module.table.is_open and meaning.structure.may_hold(index)
     }
 
 

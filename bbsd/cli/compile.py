@@ -1,11 +1,10 @@
 """`bbsd compile`."""
 
+import bbsd
 from bbsd.cli.options import Lanes, Overrides, SpecFile
 from bbsd.cli.output import show
 
 
 def compile_(spec: SpecFile, lanes: Lanes = 40, overrides: Overrides = None) -> None:
     """Print the kernel that a spec compiles to."""
-    from bbsd import api
-
-    show(api.compile(spec, lanes=lanes, overrides=overrides or ()))
+    show(bbsd.compile(spec, lanes=lanes, overrides=overrides or ()))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+import bbsd
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import has_blocks, require_writable, say, show, show_table
 from bbsd.report.csv_text import csv_text
@@ -53,12 +54,10 @@ def evaluate(
     Lives fresh episodes and shows their return, how much of it each reward term gave, and which behaviors
     were in control.
     """
-    from bbsd import api
-
     if fill and (exact or trace or plot):
         raise typer.BadParameter("--exact, --trace and --plot are of one design, --fill is of many")
     _require_outputs(trace, plot)
-    evaluation = api.evaluate(
+    evaluation = bbsd.evaluate(
         spec,
         episodes=episodes,
         seed=seed,
@@ -96,10 +95,8 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
 def _write_episode(
     spec: Path, seed: int, overrides: Overrides, trace: Path | None, plot: Path | None
 ) -> None:
-    from bbsd import api
-
-    loaded = api.load(spec, seed=seed, overrides=overrides or ())
-    lived = api.trace(loaded, seed=seed)
+    loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
+    lived = bbsd.trace(loaded, seed=seed)
     if trace:
         trace.write_text(csv_text(lived), encoding="utf-8")
     if plot:

@@ -1,5 +1,6 @@
 """`bbsd explain`."""
 
+import bbsd
 from bbsd.cli.options import AsFormat, Format, Overrides, Seed, SpecFile
 from bbsd.cli.output import show
 from bbsd.report.plain import json_text
@@ -9,8 +10,7 @@ def explain(
     spec: SpecFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = Format.TEXT
 ) -> None:
     """Say what a design does, layer by layer."""
-    from bbsd import api
     from bbsd.explanation import as_text
 
-    explanation = api.explain(spec, seed=seed, overrides=overrides or ())
+    explanation = bbsd.explain(spec, seed=seed, overrides=overrides or ())
     show(json_text(explanation.to_plain()) if form is Format.JSON else as_text(explanation))

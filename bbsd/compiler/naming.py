@@ -6,46 +6,20 @@ import keyword
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from bbsd.kernel import functions, streams
+
 if TYPE_CHECKING:
     from bbsd.spec.meaning.names import Slot
 
-TAKEN = frozenset(keyword.kwlist) | frozenset(
-    [
-        "np",
-        "int",
-        "range",
-        "abs",
-        "lane",
-        "lanes",
-        "base",
-        "step",
-        "steps",
-        "first",
-        "last",
-        "keys",
-        "key",
-        "individuals",
-        "words",
-        "tables",
-        "origins",
-        "priorities",
-        "constants",
-        "returns",
-        "credit",
-        "terms",
-        "control",
-        "taken",
-        "odd",
-        "record",
-        "running",
-        "rollout",
-        "numbers",
-        "cells",
-        "fold",
-        "word_of",
-        "is_finite",
-    ]
-)
+OWN = (
+    "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "words", "tables",
+    "origins", "priorities", "constants", "returns", "credit", "terms", "control", "taken", "odd", "record", "running",
+    "rollout", "numbers", "cells", "abs", "float", "int", "range",
+)  # fmt: skip
+"""What a rollout itself uses: arguments, variables, built-in functions."""
+
+CALLED = {name for module in (functions, streams) for name, value in vars(module).items() if callable(value)}
+TAKEN = CALLED.union(OWN, keyword.kwlist)
 
 
 @dataclass(slots=True)

@@ -92,14 +92,19 @@ class Problem:
     @property
     def has_holes(self) -> bool:
         """Whether anything is left to be designed."""
-        return bool((self.layers == OPEN_LAYER).any()) or any(table.n_open for table in self.tables)
+        return bool((self.layers == OPEN_LAYER).any()) or any(map(self.evolves, range(self.n_behaviors)))
+
+    def evolves(self, behavior: int) -> bool:
+        """Whether a behavior has cells to be designed."""
+        return self.tables[behavior].n_open > 0 and self.meaning.structure.may_hold(behavior)
 
     @property
     def decades(self) -> float:
         """The size of the search space, all tables and orders, as a logarithm to base 10."""
         n, k = len(self.candidates), int(np.count_nonzero(self.layers == OPEN_LAYER))
         orders = (lgamma(n + 1) - lgamma(n - k + 1)) / log(10)
-        return sum(table.decades for table in self.tables) + orders
+        evolved = (table for index, table in enumerate(self.tables) if self.evolves(index))
+        return sum(table.decades for table in evolved) + orders
 
     @property
     def places(self) -> list[Slot]:
@@ -145,7 +150,10 @@ def compile_meaning(meaning: Meaning, *, lanes: int | None = None, compiled: boo
     structure = meaning.structure
     return Problem(
         merged(meaning),
-        tuple(shape_of(behavior) for behavior in meaning.episode.modules),
+        tuple(
+            shape_of(module, left_out=index not in (*structure.layers, *structure.candidates))
+            for index, module in enumerate(meaning.episode.modules)
+        ),
         np.array(structure.layers, np.int64),
         np.array(structure.candidates, np.int64),
         lanes or (DEFAULT_LANES if compiled else 1),

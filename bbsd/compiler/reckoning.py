@@ -60,30 +60,28 @@ class Reckoning:
         return [f"{name}[lane] = 0.0" for name in (self.total, *self.credit, *details)]
 
     def add(self, emitter: Emitter) -> None:
-        """Add a step's reinforcement: each robot's share goes to what controlled it."""
-        lines, shares = emitter.blocks[Level.LANE].lines, self._shares(emitter)
-        team = shares[0] if len(shares) == 1 else f"({' + '.join(shares)})"
+        """Add a step's reinforcement: what each robot earned goes to what controlled it."""
+        lines, earned = emitter.blocks[Level.LANE].lines, self._earned_by_robot(emitter)
+        team = earned[0] if len(earned) == 1 else f"({' + '.join(earned)})"
         lines.append(f"{self.total}[lane] = {self.total}[lane] + {team}")
         for index, name in enumerate(self.credit):
             lines.append(
-                _added(name, [self._if_controls(index, robot, share) for robot, share in enumerate(shares)])
+                _added(name, [self._if_controls(index, robot, each) for robot, each in enumerate(earned)])
             )
 
-    def _shares(self, emitter: Emitter) -> list[str]:
-        """The names of the robots' shares of the team's reinforcement, the mean over robots."""
+    def _earned_by_robot(self, emitter: Emitter) -> list[str]:
+        """The names of what the robots earned; the mean over robots is taken once, at the end of the episode."""
         frame = self.frame
         self.earned = {
             (term, robot): emitter.named(nodes[robot], f"reward_{frame.robots_name(term, robot)}")
             for robot in range(frame.robots)
             for term, nodes in frame.episode.reward.items()
         }
-        shares = [frame.namer(frame.robots_name("share", robot)) for robot in range(frame.robots)]
-        for robot, name in enumerate(shares):
+        names = [frame.namer(frame.robots_name("earned", robot)) for robot in range(frame.robots)]
+        for robot, name in enumerate(names):
             earned = " + ".join(self.earned[term, robot] for term in frame.episode.reward)
-            emitter.blocks[Level.LANE].lines.append(
-                f"{name} = {frame.while_running(self._per_robot(earned))}"
-            )
-        return shares
+            emitter.blocks[Level.LANE].lines.append(f"{name} = {frame.while_running(earned)}")
+        return names
 
     def _per_robot(self, text: str) -> str:
         robots = self.frame.robots
@@ -97,7 +95,7 @@ class Reckoning:
         frame, lines = self.frame, emitter.blocks[Level.LANE].lines
         robots, step = range(frame.robots), "1.0" if frame.running is None else f"{frame.running}[lane]"
         for term, name in zip(frame.episode.reward, self.details["terms"], strict=True):
-            parts = [frame.while_running(self._per_robot(self.earned[term, robot])) for robot in robots]
+            parts = [frame.while_running(self.earned[term, robot]) for robot in robots]
             lines.append(_added(name, parts))
         for index, name in enumerate(self.details["control"]):
             lines.append(_added(name, [self._if_controls(index, robot, step) for robot in robots]))
@@ -120,12 +118,18 @@ class Reckoning:
 
     def finish(self) -> list[str]:
         """Write the sums to where the caller reads them."""
-        lines = [f"returns[base + lane] = {self.total}[lane]"]
-        lines += [f"credit[{index}, base + lane] = {name}[lane]" for index, name in enumerate(self.credit)]
+        lines = [f"returns[base + lane] = {self._per_robot(f'{self.total}[lane]')}"]
+        lines += [
+            f"credit[{index}, base + lane] = {self._per_robot(f'{name}[lane]')}"
+            for index, name in enumerate(self.credit)
+        ]
         for argument, names in self.details.items():
             for index, name in enumerate(names):
                 place = "base + lane" if argument == "taken" else f"{index}, base + lane"
-                lines.append(f"{argument}[{place}] = {name}[lane]")
+                kept = f"{name}[lane]"
+                lines.append(
+                    f"{argument}[{place}] = {self._per_robot(kept) if argument == 'terms' else kept}"
+                )
         return lines
 
 

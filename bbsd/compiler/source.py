@@ -102,7 +102,7 @@ def _step(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
         decision.decide(robot, emitter)
     lane.append("# Act, then dynamics and sensors.")
     after = _after(frame, emitter)
-    lane.append("# Reward: each robot's share goes to what controlled it.")
+    lane.append("# Reward: what each robot earned goes to what controlled it.")
     reckoning.add(emitter)
     if frame.detail is not Detail.CREDIT:
         lane.append("# What an evaluation adds up.")

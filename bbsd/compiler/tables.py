@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.spec.meaning.rules import OPEN_CELL
+from bbsd.spec.meaning.rules import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,9 +57,11 @@ class TableShape:
         return self.n_open * log10(self.n_actions + 1)
 
 
-def shape_of(behavior: Module) -> TableShape:
-    """The layout of a behavior's table."""
+def shape_of(behavior: Module, *, left_out: bool = False) -> TableShape:
+    """The layout of a behavior's table. What a given structure leaves out is no hole: its open cells do nothing."""
     given = np.frombuffer(behavior.table.given, np.uint8)
+    if left_out:
+        given = np.where(given == OPEN_CELL, np.uint8(NO_ACTION), given)
     return TableShape(behavior.name, behavior.n_cells, len(behavior.actions), given)
 
 

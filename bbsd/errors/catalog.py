@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.errors.expression_kinds import EXPRESSION_KINDS
+from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
 
 if TYPE_CHECKING:
@@ -11,7 +13,7 @@ if TYPE_CHECKING:
 
     from bbsd.errors.kind import Kind
 
-KINDS: Mapping[str, Kind] = {kind.code: kind for kind in (*TEXT_KINDS,)}
+KINDS: Mapping[str, Kind] = {kind.code: kind for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS)}
 
 
 def describe(code: str) -> Kind:

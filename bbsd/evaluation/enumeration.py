@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.expression.graph import Graph, Kind, Level, Node, needed, rebuilt, value_of
+from bbsd.expression.graph import Graph, Kind, Level, Node, needed, rebuilt
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bbsd.compiler import Problem
+    from bbsd.spec.meaning.constants import Constants
 
 MAX_STARTS = 1_000_000
 
@@ -32,7 +33,7 @@ def enumerated(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]]:
     if _draws(later):
         raise NotEnumerable("values are drawn during the episode, not only at its start")
     draws = _draws(episode.start.values())
-    choices = [_choices(draw) for draw in draws]
+    choices = [_choices(draw, problem.meaning.constants) for draw in draws]
     total = int(np.prod([len(weights) for _, weights in choices], dtype=np.float64)) if choices else 1
     if total > MAX_STARTS:
         raise NotEnumerable(f"there are {total} starts; at most {MAX_STARTS} are tried")
@@ -46,16 +47,22 @@ def _draws(nodes: Iterable[Node]) -> list[Node]:
     return [node for node in needed(nodes) if node.operation == "draw"]
 
 
-def _choices(draw: Node) -> tuple[float, list[float]]:
+def _choices(draw: Node, constants: Constants) -> tuple[float, list[float]]:
     """The first value of a draw and the probabilities of it and those that follow."""
     distribution, _ = cast("tuple[str, int]", draw.data)
-    if distribution not in ("integers", "chance") or not all(operand.literal for operand in draw.operands):
-        raise NotEnumerable(f"a start is drawn by {distribution}(...), which has no finite list of values")
-    values = [float(value_of(operand)) for operand in draw.operands]
-    if distribution == "chance":
-        return 0.0, [1.0 - values[0], values[0]]
-    count = max(int(values[1] - values[0]) + 1, 1)
-    return values[0], [1.0 / count] * count
+    values = [constants.static(operand) for operand in draw.operands]
+    match distribution, values:
+        case "chance", [float(probability)]:
+            happens = min(max(probability, 0.0), 1.0) if probability == probability else 0.0  # noqa: PLR0124 - NaN
+            return 0.0, [1.0 - happens, happens]
+        case "integers", [float(first), float(last)] if first.is_integer() and last.is_integer():
+            count = int(max(last - first + 1.0, 1.0))
+            if count > MAX_STARTS:
+                raise NotEnumerable(
+                    f"a start is drawn from {count} values; at most {MAX_STARTS} starts are tried"
+                )
+            return first, [1.0 / count] * count
+    raise NotEnumerable(f"a start is drawn by {distribution}(...), which has no finite list of values")
 
 
 def _combined(

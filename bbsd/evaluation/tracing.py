@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.naming import slot_text
 from bbsd.compiler.frame import Detail
+from bbsd.compiler.naming import slot_text
 from bbsd.compiler.source import module_source, traced_columns
 from bbsd.kernel.modules import load_kernel
 from bbsd.spec.meaning.partitions import is_partition
@@ -59,17 +59,11 @@ class Trace:
     @property
     def rows(self) -> list[tuple[int | float | str, ...]]:
         """One tuple a step, in the order of the columns."""
-        columns: list[list[int | float | str]] = [
-            [int(step) for step in self.steps],
-            *(list(values) for values in self.values.values()),
-            *(
-                [*words]
-                for robot in range(self.robots)
-                for words in (self.controlling[robot], self.actions[robot])
-            ),
-            *([*values.tolist()] for robots in self.rewards.values() for values in robots),
+        words = [
+            each for robot in range(self.robots) for each in (self.controlling[robot], self.actions[robot])
         ]
-        return list(zip(*columns, strict=True))
+        earned = [values.tolist() for robots in self.rewards.values() for values in robots]
+        return list(zip(self.steps.tolist(), *self.values.values(), *words, *earned, strict=True))
 
 
 def trace(problem: Problem, architecture: Architecture, key: int, generation: int) -> Trace:

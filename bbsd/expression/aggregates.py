@@ -112,9 +112,8 @@ def _generated(each: Each, scope: Scope, elaborate: Elaborate) -> list[Element] 
         names = _unpacked(each, item, scope)
         if names is None:
             return None
-        inner = replace(scope, local={**scope.local, **names})
-        if scope.draws is not None:
-            inner = replace(inner, draws=replace(scope.draws, elements=(*scope.draws.elements, place)))
+        draws = scope.draws and replace(scope.draws, elements=(*scope.draws.elements, place))
+        inner = replace(scope, local={**scope.local, **names}, draws=draws)
         elements.append(Element(item, elaborate(each.element, inner), each.element.span))
     return None if items is None else elements
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum
+from math import frexp, isfinite
 from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Mapping
 
 MAX_NODES = 300_000
-MAX_ASKED = 3_000_000
+MAX_ASKED = 1_500_000
 """Nodes asked for, the ones that exist already counted again: a bound on the work of making a graph."""
 
 
@@ -120,6 +121,9 @@ class Graph:
 
     def _simplified(self, operation: str, operands: tuple[Node, ...]) -> Node | None:
         match operation, operands:
+            case "divide", (dividend, divisor) if divisor.literal and not dividend.literal:
+                reciprocal = _exact_reciprocal(value_of(divisor))
+                return None if reciprocal is None else self.apply("*", dividend, self.number(reciprocal))
             case "select", (condition, then, otherwise) if condition.literal:
                 return then if value_of(condition) else otherwise
             case "select", (_, then, otherwise) if then is otherwise:
@@ -148,6 +152,12 @@ class Graph:
         if key not in self.nodes:
             self.nodes[key] = Node(len(self.nodes), operation, operands, data, kind, level)
         return self.nodes[key]
+
+
+def _exact_reciprocal(divisor: float) -> float | None:
+    """The reciprocal of a power of two, by which multiplying gives the same bits; None for any other number."""
+    fraction, exponent = frexp(divisor)
+    return 1.0 / divisor if abs(fraction) == 0.5 and abs(exponent) < 1000 else None
 
 
 def value_of(node: Node) -> Any:  # noqa: ANN401 - a number, a truth or a cell index
@@ -246,7 +256,7 @@ def _is_whole(
     match node.operation:
         case "literal":
             value = value_of(node)
-            return not isinstance(value, float) or value.is_integer()
+            return not isinstance(value, float) or not isfinite(value) or value.is_integer()
         case "slot":
             return whole_slots.get(node.data, False)
         case "unknown":

@@ -11,8 +11,9 @@ from bbsd.expression.checks import has_arguments, of_kind
 from bbsd.expression.graph import Kind, Node, value_of
 from bbsd.expression.picking import pick
 from bbsd.expression.scope import Deferred, Definition, PerRobot, Scope, Shared, Unusable, Value
-from bbsd.expression.tree import Call, Expr, Index, Name
+from bbsd.expression.tree import Call, Expr, Index, Name, Number, Unary
 from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
+from bbsd.kernel.functions import clamp_index
 
 Elaborate: TypeAlias = Callable[[Expr, Scope], Value]
 """What gives the value of any expression in a scope."""
@@ -84,31 +85,39 @@ def _definition(
 
 def index(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
     """The element of a list, or what one robot has."""
-    items = _robots_values(expr.of, scope, elaborate) or elaborate(expr.of, scope)
+    chosen = of_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
+    items = _robots_values(expr.of, chosen, scope, elaborate) or elaborate(expr.of, scope)
     if isinstance(items, Node):
         if items.kind is Kind.UNKNOWN:
             return items
         message = "only lists, and what each robot has, can be indexed"
         return scope.mistake("BB057", message, expr.of.span)
-    chosen = of_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
     return chosen if chosen.kind is Kind.UNKNOWN else _element(items, chosen, expr.index, scope)
 
 
-def _robots_values(of: Expr, scope: Scope, elaborate: Elaborate) -> tuple[Value, ...] | None:
-    """The values of all robots, where `of` names one scalar for each of them, else None."""
+def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -> tuple[Value, ...] | None:
+    """The values of all robots, where `of` names one scalar for each of them, else None.
+
+    Only the one chosen is elaborated where that is known; the others are unknown then.
+    """
     if not isinstance(of, Name) or of.name in scope.local:
         return None
     found = scope.names.get(of.name)
     if not (isinstance(found, PerRobot) or (isinstance(found, Definition) and not found.parameters)):
         return None
-    values = tuple(name_value(of, replace(scope, robot=robot), elaborate) for robot in range(scope.robots))
-    return values if isinstance(values[0], Node) else None
+    values: list[Value] = [scope.graph.unknown] * scope.robots
+    last = scope.robots - 1
+    for robot in [clamp_index(value_of(chosen), last)] if chosen.literal else range(scope.robots):
+        values[robot] = name_value(of, replace(scope, robot=robot), elaborate)
+        if isinstance(values[robot], tuple):
+            return None
+    return tuple(values)
 
 
 def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> Value:
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
-    if chosen.literal and not 0 <= value_of(chosen) < len(items):
+    if _is_plain(at) and not 0 <= value_of(chosen) < len(items):
         message = f"there is no element {value_of(chosen):g}; the {len(items)} count from 0"
         return scope.mistake("BB057", message, at.span)
     if not chosen.literal and len({len(item) if isinstance(item, tuple) else -1 for item in items}) > 1:
@@ -116,3 +125,8 @@ def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> 
         return scope.mistake("BB057", message, at.span)
     scope.findings.wholes.append((scope.path, at.span, "an index", chosen))
     return pick(items, chosen, scope.graph)
+
+
+def _is_plain(at: Expr) -> bool:
+    """Whether an index is written as a number."""
+    return isinstance(at, Number) or (isinstance(at, Unary) and isinstance(at.operand, Number))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 from bbsd.expression.graph import Graph, Kind, Node, value_of
+from bbsd.kernel.functions import clamp_index
 
 if TYPE_CHECKING:
     from bbsd.expression.scope import Value
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 def pick(items: tuple[Value, ...], index: Node, graph: Graph) -> Value:
     """The element of `items` at `index`; lists in the list are picked element by element."""
     if index.literal:
-        return items[min(max(int(value_of(index)), 0), len(items) - 1)]
+        return items[clamp_index(value_of(index), len(items) - 1)]
     if any(isinstance(item, tuple) for item in items):
         rows = cast("tuple[tuple[Value, ...], ...]", items)
         return tuple(pick(tuple(column), index, graph) for column in zip(*rows, strict=True))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from bbsd.expression.tree import Expr, Span
 
-MAX_MISTAKES = 500
+MAX_MISTAKES = 200
 
 Path = tuple[str | int, ...]
 """Where something stands in a spec: keys and positions from the top."""

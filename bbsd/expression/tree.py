@@ -150,6 +150,16 @@ def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[st
 
 
 def frames(expr: Expr) -> int:
-    """How deep Python's stack gets, at most, while an expression is elaborated, names aside."""
-    own = 7 if isinstance(expr, Call) else 4
+    """How deep Python's stack gets, at most, while an expression is elaborated, not counting what its names need."""
+    match expr:
+        case Number() | Truth() | Name():
+            return 1
+        case Call():
+            own = 7
+        case Logical():
+            own = 4
+        case Each():
+            own = 0
+        case _:
+            own = 3
     return own + max((frames(part) for part in parts(expr)), default=0)

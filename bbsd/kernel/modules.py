@@ -113,7 +113,7 @@ def _import_file(path: Path, module_name: str) -> ModuleType:
 
 
 def _compile(module: ModuleType, functions: tuple[str, ...]) -> None:
-    from bbsd.kernel.jit import jit  # noqa: PLC0415 - numba is slow to import
+    from bbsd.kernel.jit import jit
 
     for function in functions:
         setattr(module, function, jit(getattr(module, function)))

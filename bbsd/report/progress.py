@@ -49,6 +49,13 @@ def position(generation: Generation) -> str:
     return f"{run}generation {generation.generation}/{generation.generations}"
 
 
+def _phase(generation: Generation) -> str:
+    """Return what goes on now that a generation ended: after a run's last one, the race for its answer."""
+    if generation.generation < generation.generations:
+        return position(generation)
+    return f"run {generation.run}/{generation.runs}, final race" if generation.runs > 1 else "final race"
+
+
 def means(generation: Generation) -> str:
     """Return the fitness of a generation's agents."""
     mean, best, lifetime = column([generation.mean, generation.best, generation.lifetime])
@@ -83,7 +90,7 @@ def _line_listener(line: Progress) -> Listener:
         history.append(generation.mean)
         line.update(
             task,
-            description=position(generation),
+            description=_phase(generation),
             total=generation.runs * generation.generations,
             completed=(generation.run - 1) * generation.generations + generation.generation,
             means=means(generation),

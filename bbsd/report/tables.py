@@ -73,9 +73,9 @@ def _basis(evaluation: Evaluation) -> str:
     if not evaluation.steps.is_integer():
         steps = f"{evaluation.steps:.1f} steps on average"
     if evaluation.exact:
-        return f"all {count(evaluation.episodes, 'start')}, each of {steps}"
+        return f"all {count(evaluation.episodes, 'start')}, {steps} each"
     agents = f" by {count(evaluation.agents, 'agent')}" if evaluation.agents > 1 else ""
-    return f"{count(evaluation.episodes, 'episode')}{agents}, each of {steps}"
+    return f"{count(evaluation.episodes, 'episode')} of {steps}{agents}"
 
 
 def _reward_terms(evaluation: Evaluation) -> Table:

@@ -79,6 +79,10 @@ class Folder:
     def _checkpoint(self) -> Path:
         return self.path / "checkpoint.npz"
 
+    def copy_spec(self, text: str) -> None:
+        """Keep the spec as it was when the run began."""
+        (self.path / "spec.yaml").write_text(text, encoding="utf-8")
+
     def save(self, progress: Progress, line: dict[str, Any] | None) -> None:
         """Note a generation: first its metrics, then the state, so the state never knows more than the metrics."""
         if line is not None:
@@ -160,7 +164,7 @@ def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
     return Folder(folder)
 
 
-def old_folder(wanted: Path | None, name: str, seed: int, who: Identity) -> Folder:
+def old_folder(wanted: Path | None, name: str, who: Identity) -> Folder:
     """The folder to go on in: the one wanted, or the newest default one that is of the same."""
     if wanted is not None:
         if not Folder(wanted).is_of(who):
@@ -169,7 +173,7 @@ def old_folder(wanted: Path | None, name: str, seed: int, who: Identity) -> Fold
             )
         return Folder(wanted)
     found = None
-    for path in _defaults(name, seed):
+    for path in _defaults(name, who.seed):
         if not path.exists():
             break
         found = Folder(path) if Folder(path).is_of(who) else found

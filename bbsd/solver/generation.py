@@ -56,12 +56,12 @@ class Census:
 def beginning(problem: Problem, settings: Settings, key: int) -> State:
     """Initialize n different behavior pools and an empty culture.
 
-    A behavior without open cells needs one individual.
+    A behavior without cells to be designed needs one individual.
     """
     pools = tuple(
         random_pool(
             fold(fold(key, POOLS), word_of(index)),
-            settings.coevolution.population if table.n_open else 1,
+            settings.coevolution.population if problem.evolves(index) else 1,
             table.given,
             table.n_actions,
         )
@@ -130,7 +130,7 @@ def bred(state: State, problem: Problem, settings: Settings, key: int) -> tuple[
             table.given,
             breeding,
         )
-        if table.n_open
+        if problem.evolves(index)
         else pool
         for index, (pool, table) in enumerate(zip(state.pools, problem.tables, strict=True))
     )

@@ -19,7 +19,7 @@ def _default(text: str) -> Expression:
 class Coevolution(Part):
     """Cooperative co-evolution of the behaviors (V.B)."""
 
-    generations: Whole = Field(50, ge=1, le=1_000_000, description="Generations of a run.")
+    generations: Whole = Field(50, ge=1, le=100_000, description="Generations of a run.")
     population: Whole = Field(20, ge=1, le=100_000, description="Individuals in each behavior's pool.")
     agents: Whole = Field(200, ge=1, le=1_000_000, description="Agents put together in each generation.")
     tournament: Whole = Field(3, ge=1, le=1000, description="Individuals that compete to be a parent.")
@@ -42,7 +42,7 @@ class Learning(Part):
     """Learning of the structure during a lifetime (V.A)."""
 
     episodes: Whole = Field(
-        25, ge=1, le=1_000_000, description="Episodes of a lifetime in which a structure is learned."
+        25, ge=1, le=100_000, description="Episodes of a lifetime in which a structure is learned."
     )
     last: Whole = Field(
         5,
@@ -79,7 +79,7 @@ class CultureSettings(Part):
 class Answer(Part):
     """The final race between candidates."""
 
-    candidates: Whole = Field(32, ge=1, le=1000, description="Different behaviors that enter the race.")
+    candidates: Whole = Field(1000, ge=1, le=100_000, description="Champions that enter the final race.")
     episodes: Whole = Field(
         20_000, ge=100, le=10_000_000, description="Fresh episodes at most for each of them."
     )

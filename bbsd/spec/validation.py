@@ -201,14 +201,11 @@ def _item(path: Path) -> str:
 
 def named(path: Path) -> str:
     """What a message calls the value at a path."""
-    match path:
-        case ():
-            return "a spec"
-        case (*_, str(key)):
-            return key
-        case (*_, key, int(place)):
-            return f"item {place + 1} of {key}"
-    return "this"
+    places = [str(segment + 1) for segment in path if isinstance(segment, int)]
+    keys = [segment for segment in path if isinstance(segment, str)]
+    if not keys:
+        return "a spec"
+    return keys[-1] if isinstance(path[-1], str) else f"item {'.'.join(places)} of {keys[-1]}"
 
 
 def shown(value: object) -> str:

@@ -16,7 +16,7 @@ def read(source: Source) -> Document:
     Never raises: what is wrong is in the document's diagnoses, in the order of the text. Bounds: 50 000
     keys and values and 40 levels with aliases expanded, texts of 10 000 characters, numbers of 100.
     """
-    from bbsd.text.composition import compose  # noqa: PLC0415 - PyYAML is slow to import
+    from bbsd.text.composition import compose
 
     root, diagnoses = compose(source)
     return Document(source, root, tuple(sorted(diagnoses, key=lambda each: each.place)))

@@ -44,7 +44,7 @@ def _float_text(value: float) -> str:
 
 def is_plain(text: str, flow: bool = False) -> bool:
     """Say whether a text needs no quotes, `flow` as for `scalar_text`."""
-    from bbsd.text.schema import is_text_everywhere  # noqa: PLC0415 - PyYAML is slow to import
+    from bbsd.text.schema import is_text_everywhere
 
     if not text.isprintable() or not SAFE_START.match(text) or UNSAFE.search(text) or GLUED.match(text):
         return False

@@ -107,6 +107,7 @@ def run_episode(
         result.trace.append(Step(controlling, terms, seen(episode, moment)))
         if ended(episode, moment):
             break
+    mean_over_robots(result, float(len(episode.robots)))
     return result
 
 
@@ -234,14 +235,20 @@ def reward_terms(episode: Episode, moment: Moment, robot: int) -> list[float]:
 
 def account(result: Result, controlling: Sequence[int], terms: Sequence[Sequence[float]]) -> None:
     """Add a step's reinforcement to the return, to the credit of what controlled, and to each term's."""
-    n_robots = float(len(terms))
-    shares = [divide(reduce(add, of_robot), n_robots) for of_robot in terms]
-    result.return_ += reduce(add, shares)
-    for index, share in zip(controlling, shares, strict=True):
-        result.credit[index] += share
+    earned = [reduce(add, of_robot) for of_robot in terms]
+    result.return_ += reduce(add, earned)
+    for index, each in zip(controlling, earned, strict=True):
+        result.credit[index] += each
     for of_robot in terms:
         for number, term in enumerate(of_robot):
-            result.terms[number] += divide(term, n_robots)
+            result.terms[number] += term
+
+
+def mean_over_robots(result: Result, n_robots: float) -> None:
+    """The team's reinforcement is the mean of the robots'; taken once, of an episode's sums."""
+    result.return_ = divide(result.return_, n_robots)
+    result.credit = [divide(each, n_robots) for each in result.credit]
+    result.terms = [divide(each, n_robots) for each in result.terms]
 
 
 def ended(episode: Episode, moment: Moment) -> bool:

@@ -11,6 +11,20 @@ from tests.interpreter.made_up_behaviors import Senses, behavior, structure
 from tests.interpreter.made_up_expressions import Draw, Reach, number, truth, whole
 from tests.interpreter.made_up_partitions import TRUTHS, partition
 
+SHOWN = {
+    "shown_x": "x",
+    "shown_y": "y",
+    "shown_place": "place",
+    "shown_flag": "1 if flag else 2",
+    "shown_amount": "amount",
+    "shown_alarm": "1 if alarm else 2",
+    "shown_level": "level",
+    "shown_eyes": "sum(eyes)",
+    "shown_before": "before(level - x)",
+    "shown_constants": "chosen + changing + mean(mixed) + max(left - 2 * right for left, right in grid)",
+}
+"""Terms that show every value of an episode."""
+
 Block = dict[str, Any]
 Definitions = tuple[tuple[str, int], ...]
 
@@ -181,4 +195,5 @@ def some_behaviors(draw: Draw, senses: Senses, state: Block) -> Block:
 
 def some_reward(draw: Draw, every: Reach) -> Block:
     reach = replace(every, wholes=(*every.wholes, "step"))
-    return {f"term_{k}": number(draw, reach) for k in range(draw(st.integers(1, 3)))}
+    made_up = {f"term_{k}": number(draw, reach) for k in range(draw(st.integers(0, 2)))}
+    return shuffled(draw, {**made_up, **SHOWN})

@@ -73,48 +73,48 @@ def one_way(draw: Draw, ways: Sequence[Writer]) -> Writer:
 
 def numbers(reach: Reach, depth: int) -> list[Writer]:
     """All ways to write a number."""
-    leaves = [one_of(LITERALS)] + [one_of(names) for names in (reach.numbers, reach.wholes) if names] * 2
     if depth <= 0:
-        return leaves
-    deep = [function, binary, binary, power, conditional(number), several, negated]
+        return [one_of(LITERALS)] + [one_of(names) for names in (reach.numbers, reach.wholes) if names] * 2
+    ways = [function, binary, binary, power, conditional(number), several, negated, over_range, whole]
+    ways += [one_of(reach.numbers or LITERALS)]
     if reach.lists:
-        deep += [element, aggregate_of_list, over_list]
+        ways += [element, aggregate_of_list, over_list]
     if reach.tables:
-        deep += [element_of_table, over_rows]
-    if reach.team and reach.numbers_of_robots:
-        deep += [of_robot(reach.numbers_of_robots), over_team, first_best]
+        ways += [element_of_table, over_rows]
+    if reach.team:
+        ways += [of_robot(reach.numbers_of_robots), over_team, over_team, over_team, first_best]
     if reach.definitions:
-        deep += [defined, defined]
+        ways += [defined, defined]
     if reach.before:
-        deep += [earlier(number)]
+        ways += [earlier(number), earlier(number)]
     if reach.draws:
-        deep += [drawn, drawn]
-    return leaves + deep + [over_range, whole]
+        ways += [drawn, drawn, drawn_again_and_again]
+    return ways
 
 
 def truths(reach: Reach, depth: int) -> list[Writer]:
     """All ways to write a truth."""
-    leaves = [one_of(("true", "false"))] + [one_of(reach.truths)] * 2 * bool(reach.truths)
+    leaf = one_of(reach.truths or ("true", "false"))
     if depth <= 0:
-        return leaves
-    deep = [comparison, comparison, chain, joined, denied, conditional(truth)]
+        return [leaf]
+    ways = [leaf, comparison, comparison, chain, joined, denied, conditional(truth)]
     if reach.lists:
-        deep += [any_of_list]
+        ways += [any_of_list]
     if reach.team and reach.truths_of_robots:
-        deep += [of_robot(reach.truths_of_robots)]
+        ways += [of_robot(reach.truths_of_robots)]
     if reach.before:
-        deep += [earlier(truth)]
+        ways += [earlier(truth)]
     if reach.draws:
-        deep += [chance]
-    return leaves + deep
+        ways += [chance]
+    return ways
 
 
 def wholes(reach: Reach, depth: int) -> list[Writer]:
     """All ways to write a whole number."""
-    leaves = [one_of(WHOLE_LITERALS)] + [one_of(reach.wholes)] * 2 * bool(reach.wholes)
+    leaf = one_of((*WHOLE_LITERALS, *reach.wholes * 3))
     if depth <= 0:
-        return leaves
-    return leaves + [rounded, rounded, whole_sum] + [integers] * reach.draws
+        return [leaf]
+    return [leaf, rounded, rounded, whole_sum] + [integers] * reach.draws
 
 
 def one_of(texts: Sequence[str]) -> Writer:
@@ -180,7 +180,7 @@ def aggregate_of_list(draw: Draw, reach: Reach, _depth: int) -> str:
 def over_list(draw: Draw, reach: Reach, depth: int) -> str:
     name, _ = draw(st.sampled_from(reach.lists))
     inner, names = reach.binding(numbers=1)
-    return folded(draw, number(draw, inner, depth), names, name)
+    return folded(draw, f"{names[0]} * {number(draw, inner, depth)}", names, name)
 
 
 def element_of_table(draw: Draw, reach: Reach, depth: int) -> str:
@@ -191,7 +191,7 @@ def element_of_table(draw: Draw, reach: Reach, depth: int) -> str:
 def over_rows(draw: Draw, reach: Reach, depth: int) -> str:
     name, _, columns = draw(st.sampled_from(reach.tables))
     inner, names = reach.binding(numbers=columns)
-    return folded(draw, number(draw, inner, depth), names, name)
+    return folded(draw, f"{' - '.join(names)} + {number(draw, inner, depth)}", names, name)
 
 
 def over_range(draw: Draw, reach: Reach, depth: int) -> str:
@@ -209,10 +209,9 @@ def of_robot(names: Sequence[str]) -> Writer:
 
 def over_team(draw: Draw, reach: Reach, depth: int) -> str:
     inner, names = reach.binding(wholes=1)
-    theirs = tuple(f"{name}[{names[0]}]" for name in reach.numbers_of_robots)
-    inner = replace(inner, numbers=inner.numbers + theirs)
-    source = draw(st.sampled_from(["team", "others"] if reach.others else ["team"]))
-    return folded(draw, number(draw, inner, depth), names, source)
+    theirs = f"{draw(st.sampled_from(reach.numbers_of_robots))}[{names[0]}]"
+    source = draw(st.sampled_from(["others", "team"] if reach.others else ["team"]))
+    return folded(draw, f"{theirs} - {number(draw, inner, depth)}", names, source)
 
 
 def first_best(draw: Draw, reach: Reach, _depth: int) -> str:
@@ -237,6 +236,13 @@ def earlier(what: Writer) -> Writer:
 def drawn(draw: Draw, reach: Reach, depth: int) -> str:
     name = draw(st.sampled_from(["uniform", "normal"]))
     return f"{name}({number(draw, reach, depth)}, {number(draw, reach, depth)})"
+
+
+def drawn_again_and_again(draw: Draw, reach: Reach, depth: int) -> str:
+    """Draws in a generator in a generator."""
+    inner, (row, column) = reach.binding(wholes=2)
+    within = f"sum({drawn(draw, inner, depth)} + {column} for {column} in range(2))"
+    return folded(draw, f"{row} - {within}", [row], f"range({draw(st.integers(2, 3))})")
 
 
 def integers(draw: Draw, reach: Reach, depth: int) -> str:

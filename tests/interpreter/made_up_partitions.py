@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from hypothesis import strategies as st
 
-from tests.interpreter.made_up_expressions import Draw, Reach, number, truth, whole
+from tests.interpreter.made_up_expressions import Draw, Reach, comparison, number, truth, whole
 
 BOUNDS = (-1, 0, 0.5, 1, 2.5, 4, 10)
 
@@ -62,5 +62,5 @@ def of_names(draw: Draw, reach: Reach) -> Partition:
 
 
 def of_names_that_cover(draw: Draw, reach: Reach) -> Partition:
-    condition = truth(draw, replace(reach, draws=False), 2)
+    condition = comparison(draw, replace(reach, draws=False), 1)
     return Partition({"this": condition, "that": f"not {condition}"}, one_by_one(["this", "that"]))

@@ -62,11 +62,11 @@ def color(index: int) -> str:
 def drawn(path: Path, width: float, heights: list[float]) -> Iterator[list[Axes]]:
     """Give panels below each other that share the horizontal axis; write the file when they are drawn.
 
-    Width and heights are inches.     Raises FigureError where that cannot be done.
+    Width and heights are inches. Raises FigureError where that cannot be done.
     """
     require_figure(path)
-    from matplotlib import style  # noqa: PLC0415 - slow to import, and not always installed
-    from matplotlib.figure import Figure  # noqa: PLC0415
+    from matplotlib import style
+    from matplotlib.figure import Figure
 
     with style.context(["default", STYLE]):
         figure = Figure(figsize=(width, sum(heights)), layout="constrained")

@@ -10,9 +10,10 @@ from bbsd.expression.graph import Graph, Kind, Node, compute, needed, value_of
 from bbsd.expression.operations import COMPARISONS, INFIX
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
 MAX_CASES = 4096
+MAX_WORK = 1_000_000
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
@@ -26,7 +27,7 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
     anything = graph.fold("|", conditions)
     if anything.literal:
         return bool(value_of(anything))
-    atoms = [node for node in needed([anything]) if _is_atom(node)]
+    atoms = [node for node in _down_to_atoms(anything) if _is_atom(node)]
     cases = 1
     choices: dict[tuple[int, ...], list[dict[int, bool]]] = {}
     for key, group in _groups(atoms).items():
@@ -34,7 +35,22 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
         cases *= len(choices[key])
         if cases > MAX_CASES:
             return False
-    return all(_holds(anything, combination) for combination in product(*choices.values()))
+    nodes = [node for node in needed([anything]) if node.kind is Kind.TRUTH]
+    if cases * len(nodes) > MAX_WORK:
+        return False
+    return all(_holds(nodes, combination) for combination in product(*choices.values()))
+
+
+def _down_to_atoms(condition: Node) -> list[Node]:
+    """The truths that a condition is made of, operands first; what an atom compares is not looked into."""
+    found: dict[int, Node] = {}
+    waiting = [condition]
+    while waiting:
+        node = waiting.pop()
+        if node.number not in found:
+            found[node.number] = node
+            waiting.extend(() if _is_atom(node) else node.operands)
+    return [found[number] for number in sorted(found)]
 
 
 def _is_atom(node: Node) -> bool:
@@ -85,14 +101,15 @@ def _ordered(atom: Node, order: int) -> bool:
     return bool(INFIX[operation](order, 0))
 
 
-def _holds(condition: Node, combination: Iterable[Mapping[int, bool]]) -> bool:
+def _holds(nodes: Sequence[Node], combination: Iterable[Mapping[int, bool]]) -> bool:
+    """Whether the last of the nodes is true, given truths for the atoms among them."""
     truths: dict[int, bool] = {}
     for case in combination:
         truths.update(case)
-    for node in needed([condition]):
-        if node.number not in truths and node.kind is Kind.TRUTH:
+    for node in nodes:
+        if node.number not in truths:
             truths[node.number] = _decided(node, truths)
-    return truths[condition.number]
+    return truths[nodes[-1].number]
 
 
 def _decided(node: Node, truths: Mapping[int, bool]) -> bool:

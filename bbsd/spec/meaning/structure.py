@@ -26,6 +26,10 @@ class Structure:
         """Whether there is anything to learn: with one way to fill the layers there is not."""
         return OPEN_LAYER in self.layers and len(self.candidates) > 1
 
+    def may_hold(self, behavior: int) -> bool:
+        """Whether a behavior has a layer or may get one; what is open in any other is no hole."""
+        return OPEN_LAYER in self.layers or behavior in self.layers
+
 
 def structure(spec: Spec, findings: Findings, broken: frozenset[str] = frozenset()) -> Structure:
     """The layers as given, or as many open ones as `design.layers` says."""

@@ -5,9 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from bbsd.architecture import Architecture
-from bbsd.spec.meaning import mean
-from bbsd.spec.models import Spec
-from bbsd.text import Source, read
+from bbsd.spec.loading import load
+from bbsd.text import Source
 
 SPECS = Path(__file__).parents[3] / "specs"
 SHIPPED = ("abstract", "object_lifting", "object_lifting_hand")
@@ -33,11 +32,7 @@ def small(behaviors, robots=1):
 
 
 def meaning_of(text, seed=0):
-    document = read(Source("spec.yaml", text))
-    assert not document.diagnoses
-    meaning, mistakes = mean(Spec.model_validate(document.data), seed)
-    assert meaning is not None, mistakes
-    return meaning
+    return load(Source("spec.yaml", text), seed=seed).meaning
 
 
 def random_architecture(meaning, seed):

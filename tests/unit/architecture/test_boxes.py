@@ -10,7 +10,7 @@ from bbsd.architecture.boxes import FREE, KEEP, MAX_GREEDY_CELLS, cover, first_m
 
 @st.composite
 def tables(draw):
-    sizes = draw(st.lists(st.integers(1, 4), max_size=4))
+    sizes = draw(st.lists(st.integers(1, 4), max_size=3))
     values = draw(st.lists(st.integers(FREE, 2), min_size=prod(sizes), max_size=prod(sizes)))
     return np.array(values, np.int64), sizes
 

@@ -61,7 +61,7 @@ def test_what_is_computed_from_drawn_constants_stays_as_it_is():
         "max(generation, integers(1, 9), 4) // 3 - generation ** 2 % 3",
         "normal(0, 1) / sqrt(generation) - 1.5 ** generation",
         "[1, 'uniform(0, 1)', 2 * generation]",
-        "list(uniform(0, 1), 2, 3)[generation - 1]",
+        "list(uniform(0, 1), 2, 3)[floor(generation) - 1]",
         "atan2(uniform(0, 1), generation) + abs(-generation)",
         "1 if chance(0.5) or generation == 2 else 0",
     ],

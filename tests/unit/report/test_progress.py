@@ -61,3 +61,9 @@ def test_the_live_line_fits_into_80_columns():
     console = Console(file=StringIO(), force_terminal=True, width=80, color_system=None)
     text = told(console, [Generation(3, 8, 25, 100, mean=-1250.0)])
     assert "run 3/8, generation 25/100 mean -1250.0, best 301.2, lifetime -12.0" in text
+
+
+def test_after_a_run_s_last_generation_a_terminal_shows_its_final_race():
+    console = Console(file=StringIO(), force_terminal=True, width=80, color_system=None)
+    text = told(console, [Generation(1, 2, 1, 2), Generation(1, 2, 2, 2)])
+    assert "run 1/2, final race mean 250.50" in text

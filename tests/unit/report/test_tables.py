@@ -23,7 +23,7 @@ def row(text, first):
 
 
 def test_an_evaluation_shows_the_return_with_its_interval_and_basis(evaluation):
-    assert "301.37   7.02                 300.94 to 301.81\n1,000 episodes, each of 300 steps" in printed(
+    assert "301.37   7.02                 300.94 to 301.81\n1,000 episodes of 300 steps" in printed(
         evaluation_table(evaluation)
     )
 
@@ -49,17 +49,17 @@ def test_values_that_were_not_finite_are_listed_only_where_there_were_any(evalua
 
 def test_one_episode_has_no_interval(evaluation):
     lone = replace(evaluation, returns=Interval(3.0, nan, nan, nan, 1), episodes=1)
-    assert "unknown to unknown\n1 episode, each of 300 steps" in printed(evaluation_table(lone))
+    assert "unknown to unknown\n1 episode of 300 steps" in printed(evaluation_table(lone))
 
 
 def test_an_exact_evaluation_has_no_interval_either(evaluation):
     text = printed(evaluation_table(replace(evaluation, exact=True, episodes=25, steps=1.0)))
-    assert "exact\nall 25 starts, each of 1 step" in text
+    assert "exact\nall 25 starts, 1 step each" in text
 
 
 def test_several_agents_and_episodes_of_different_length_are_told(evaluation):
     text = printed(evaluation_table(replace(evaluation, agents=50, steps=12.25)))
-    assert "1,000 episodes by 50 agents, each of 12.2 steps on average" in text
+    assert "1,000 episodes of 12.2 steps on average by 50 agents" in text
 
 
 def test_a_design_shows_its_structure_from_the_highest_layer_down(designed):

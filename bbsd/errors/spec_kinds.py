@@ -1,0 +1,268 @@
+"""The kinds of mistakes that a spec's form and meaning can have: BB020 to BB049.
+
+An example is a part of a spec, or an argument of the command line where it begins with `--set`.
+"""
+
+from __future__ import annotations
+
+from bbsd.errors.kind import Kind
+
+SPEC_KINDS = (
+    Kind(
+        code="BB020",
+        title="an unexpected key",
+        explanation=(
+            "Each block of a spec has its own keys, and whatever is not one of them would have no effect, "
+            "so it is refused. Keys of your own begin with x- and are ignored."
+        ),
+        example="environment:\n  step: 300",
+        mend="environment:\n  steps: 300",
+    ),
+    Kind(
+        code="BB021",
+        title="a missing key",
+        explanation="Some keys have no default: without them there is nothing to design.",
+        example="behaviors:\n  hurry_up:\n    excited: tilted",
+        mend=(
+            "behaviors:\n"
+            "  hurry_up:\n"
+            "    excited: tilted\n"
+            "    actions:\n"
+            "      faster:\n"
+            "        speed: speed + 1"
+        ),
+    ),
+    Kind(
+        code="BB022",
+        title="the wrong kind of value",
+        explanation=(
+            "What stands here is a number where a text is needed, a list where a mapping is, or the like. "
+            "Quotes make a text of a number; three is a text and 3 a number."
+        ),
+        example="environment:\n  robots: three",
+        mend="environment:\n  robots: 3",
+    ),
+    Kind(
+        code="BB023",
+        title="a value that is not allowed",
+        explanation=(
+            "The value is of the right kind, but outside of its bounds or none of the words that can "
+            "stand here."
+        ),
+        example="environment:\n  robots: 300",
+        mend="environment:\n  robots: 30",
+    ),
+    Kind(
+        code="BB024",
+        title="not a name",
+        explanation=(
+            "Names are small letters, digits and _, beginning with a letter, and none of the language's "
+            "own words, such as step, team or open. A definition's key is a name, or a name with its "
+            "parameters: name(a, b)."
+        ),
+        example="constants:\n  TopSpeed: 5",
+        mend="constants:\n  top_speed: 5",
+    ),
+    Kind(
+        code="BB025",
+        title="a name for two things",
+        explanation=(
+            "Constants, world, state, definitions and sensors share their names, since an expression "
+            "could not tell them apart."
+        ),
+        example="constants:\n  speed: 5",
+        mend="constants:\n  top_speed: 5",
+    ),
+    Kind(
+        code="BB026",
+        title="another version of the language",
+        explanation=(
+            "The key bbsd gives the version of the language that a spec is written in. This program reads "
+            "version 1."
+        ),
+        example="bbsd: 2",
+        mend="bbsd: 1",
+    ),
+    Kind(
+        code="BB027",
+        title="an empty block",
+        explanation=(
+            "There must be at least one behavior, one term of the reward, and one cell where a rule names "
+            "an input."
+        ),
+        example="reward: {}",
+        mend="reward:\n  near: 1 if abs(height - 3) < 0.5 else 0",
+    ),
+    Kind(
+        code="BB028",
+        title="an override that cannot be set",
+        explanation=(
+            "--set takes PATH=VALUE. The path leads from key to key by dots and into lists by [0], [1], "
+            "..., to what the spec has or the language has a default for; the value is read as YAML, and "
+            "null takes the key away."
+        ),
+        example="--set design.coevolution.generatoins=10",
+        mend="--set design.coevolution.generations=10",
+    ),
+    Kind(
+        code="BB030",
+        title="an input that is not partitioned",
+        explanation=(
+            "A behavior's table has a row for each cell of its inputs (Table 2), so an input must have "
+            "finitely many: a condition has two, cut(...) and values(...) make as many as you need."
+        ),
+        example="behaviors:\n  stop:\n    inputs:\n      reached: height",
+        mend="behaviors:\n  stop:\n    inputs:\n      reached: cut(height, 2, 3)",
+    ),
+    Kind(
+        code="BB031",
+        title="cut or values of nothing that can be cut so",
+        explanation=(
+            "cut(e, c1, c2, ...) takes a number and growing bounds. values(e, first, last) takes a whole "
+            "number and the first and last of at least two whole numbers."
+        ),
+        example="behaviors:\n  stop:\n    inputs:\n      reached: cut(height, 3, 2)",
+        mend="behaviors:\n  stop:\n    inputs:\n      reached: cut(height, 2, 3)",
+    ),
+    Kind(
+        code="BB032",
+        title="cells that may leave a gap",
+        explanation=(
+            "There must be two cells or more, and one of the conditions must hold in every state. Where "
+            "that does not follow from the comparisons alone, the last cell is written with the condition "
+            "otherwise."
+        ),
+        example="environment:\n  sensors:\n    zone:\n      low: height < 2\n      high: height > 2",
+        mend="environment:\n  sensors:\n    zone:\n      low: height < 2\n      high: otherwise",
+    ),
+    Kind(
+        code="BB033",
+        title="something that cannot be set",
+        explanation=(
+            "An action sets its own robot's state; dynamics give the next values of world and state. "
+            "Constants, sensors and definitions follow from other values and are never set."
+        ),
+        example="behaviors:\n  stop:\n    actions:\n      halt:\n        tilt: 0",
+        mend="behaviors:\n  stop:\n    actions:\n      halt:\n        speed: 0",
+    ),
+    Kind(
+        code="BB034",
+        title="a rule with an unknown input",
+        explanation="A rule can ask only for the inputs of its own behavior.",
+        example="behaviors:\n  stop:\n    rules:\n      - when: {tilted: true}\n        do: halt",
+        mend="behaviors:\n  stop:\n    rules:\n      - when: {reached: true}\n        do: halt",
+    ),
+    Kind(
+        code="BB035",
+        title="a rule with an unknown cell",
+        explanation=(
+            "A rule names the cells of an input as its partition labels them: true and false for a "
+            "condition, below 2, 2 to 3, from 3 for cut(e, 2, 3), and ranges of these; the numbers of "
+            "values(...); the names of named cells."
+        ),
+        example="behaviors:\n  stop:\n    rules:\n      - when: {reached: yes}\n        do: halt",
+        mend="behaviors:\n  stop:\n    rules:\n      - when: {reached: true}\n        do: halt",
+    ),
+    Kind(
+        code="BB036",
+        title="a rule with an unknown action",
+        explanation=(
+            "What a rule does is one of its own behavior's actions, no action, or open, which leaves it "
+            "to the design."
+        ),
+        example="behaviors:\n  stop:\n    rules:\n      - otherwise: Halt",
+        mend="behaviors:\n  stop:\n    rules:\n      - otherwise: halt",
+    ),
+    Kind(
+        code="BB037",
+        title="a rule that never applies",
+        explanation=(
+            "The first rule that matches decides, and the ones before this match every cell that it does."
+        ),
+        example=(
+            "behaviors:\n"
+            "  stop:\n"
+            "    rules:\n"
+            "      - otherwise: halt\n"
+            "      - when: {reached: false}\n"
+            "        do: no action"
+        ),
+        mend=(
+            "behaviors:\n"
+            "  stop:\n"
+            "    rules:\n"
+            "      - when: {reached: false}\n"
+            "        do: no action\n"
+            "      - otherwise: halt"
+        ),
+    ),
+    Kind(
+        code="BB038",
+        title="no actions, or too many",
+        explanation="A behavior has 1 to 200 actions; No Action is there without being listed.",
+        example="behaviors:\n  stop:\n    actions: {}",
+        mend="behaviors:\n  stop:\n    actions:\n      halt:\n        speed: 0",
+    ),
+    Kind(
+        code="BB039",
+        title="too large a table",
+        explanation=(
+            "A behavior's table has as many cells as its inputs have together, multiplied. More than a "
+            "million could neither be searched nor read."
+        ),
+        example=(
+            "behaviors:\n"
+            "  stop:\n"
+            "    inputs:\n"
+            "      fine: values(speed, 0, 1999)\n"
+            "      coarse: values(speed, 0, 999)"
+        ),
+        mend=(
+            "behaviors:\n"
+            "  stop:\n"
+            "    inputs:\n"
+            "      fine: values(speed, 0, 19)\n"
+            "      coarse: values(speed, 0, 9)"
+        ),
+    ),
+    Kind(
+        code="BB040",
+        title="an input listed twice",
+        explanation=(
+            "Each input is one dimension of the behavior's table, so a second time it adds nothing but "
+            "impossible cells."
+        ),
+        example="behaviors:\n  stop:\n    inputs: [tilted, tilted]",
+        mend="behaviors:\n  stop:\n    inputs: [tilted]",
+    ),
+    Kind(
+        code="BB041",
+        title="an input that is no sensor",
+        explanation=(
+            "A list of inputs names sensors that are partitions. What only one behavior looks at can be "
+            "partitioned there: inputs is then a mapping from a name to what it cuts."
+        ),
+        example="behaviors:\n  stop:\n    inputs: [height]",
+        mend="behaviors:\n  stop:\n    inputs:\n      height: cut(height, 3)",
+    ),
+    Kind(
+        code="BB042",
+        title="a structure that cannot be",
+        explanation=(
+            "A structure lists behaviors from the highest layer down, each at most once, or open for a "
+            "layer that a behavior not listed will take."
+        ),
+        example="structure: [stop, stop]",
+        mend="structure: [stop]",
+    ),
+    Kind(
+        code="BB043",
+        title="a rate that is no probability",
+        explanation=(
+            "Mutation is a probability in every generation, and the learning rate a weight in every "
+            "episode; each must stay from 0 to 1."
+        ),
+        example="design:\n  learning:\n    rate: 2 / episode",
+        mend="design:\n  learning:\n    rate: 1 / episode",
+    ),
+)

@@ -1,0 +1,1 @@
+"""The method: cooperative co-evolution, structure learning, culture, and the run of them all."""

@@ -1,0 +1,328 @@
+"""The command line as a shell sees it: what is on which stream, and with which code it leaves."""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import signal
+import subprocess
+import sys
+from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
+from io import BytesIO, TextIOWrapper
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+
+from bbsd import __version__
+from bbsd.cli import main
+
+SPEC = Path(__file__).parent / "specs" / "thermostat.yaml"
+HEAVY = ("numba", "numpy", "pydantic", "yaml", "rich", "matplotlib")
+COMMANDS = ("design", "evaluate", "explain", "check", "config", "compile")
+TERMINAL = ("COLUMNS", "FORCE_COLOR", "NO_COLOR", "TERM")
+
+
+def bbsd(*words, cwd=".", encoding="utf-8"):
+    """Run a command in this process and give its code, standard output and standard error."""
+    out, err = (TextIOWrapper(BytesIO(), encoding=encoding, write_through=True) for _ in range(2))
+    environment = {key: value for key, value in os.environ.items() if key not in TERMINAL}
+    with (
+        chdir(cwd),
+        patch.object(sys, "argv", ["bbsd", *map(str, words)]),
+        patch.dict(os.environ, environment, clear=True),
+        redirect_stdout(out),
+        redirect_stderr(err),
+        pytest.raises(SystemExit) as left,
+    ):
+        main()
+    texts = [stream.buffer.getvalue().decode() for stream in (out, err)]
+    assert "\x1b" not in texts[0] + texts[1]
+    return left.value.code or 0, *texts
+
+
+@contextmanager
+def process(*words, cwd="."):
+    """Run a command in a process of its own."""
+    command = [sys.executable, "-m", "bbsd", *map(str, words)]
+    with subprocess.Popen(
+        command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def designed(tmp_path_factory):
+    """A folder that `bbsd design` wrote, and what it said."""
+    folder = tmp_path_factory.mktemp("designed")
+    return folder, bbsd("design", SPEC, "--out", folder)
+
+
+def keys(text):
+    return list(json.loads(text))
+
+
+def test_help_lists_the_commands():
+    code, out, err = bbsd("--help")
+    assert (code, err) == (0, "")
+    for command in COMMANDS:
+        assert f"  {command} " in out
+
+
+@pytest.mark.parametrize(
+    ("words", "heavy"),
+    [(["--help"], HEAVY), (["--version"], HEAVY), (["design", "--help"], {*HEAVY} - {"pydantic"})],
+)
+def test_help_imports_nothing_heavy(words, heavy):
+    """But for pydantic, which typer itself needs for a command's options."""
+    command = [sys.executable, "-X", "importtime", "-m", "bbsd", *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    imported = {line.rpartition("|")[2].strip().partition(".")[0] for line in done.stderr.splitlines()}
+    assert "bbsd" in imported
+    assert not imported & {*heavy}
+
+
+def test_the_version_is_the_package_s():
+    assert bbsd("--version") == (0, f"bbsd {__version__}\n", "")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["desing"],
+        ["design"],
+        ["design", SPEC, "--sed", "1"],
+        ["design", SPEC, "--seed", "one"],
+        ["design", SPEC, "--runs", "0"],
+        ["evaluate", SPEC, "--fill", "ones"],
+        ["evaluate", SPEC, "--fill", "random", "--exact"],
+        ["check"],
+        ["check", "--describe", "BB999"],
+    ],
+)
+def test_a_wrong_word_on_the_command_line_is_explained(words):
+    code, out, err = bbsd(*words)
+    assert (code, out) == (2, "")
+    assert "Error: " in err
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_file_that_is_not_there_is_a_mistake_in_any_command(command, tmp_path):
+    code, out, err = bbsd(command, "nowhere.yaml", cwd=tmp_path)
+    assert code == 2
+    assert "nowhere.yaml:1:1: error[BB001]: there is no such file" in (out if command == "check" else err)
+
+
+def test_a_spec_without_mistakes_is_sized_up():
+    expected = f"{SPEC}: ok (2 behaviors, 3 open cells, 2 open layers, search space 10^1.7)\n"
+    assert bbsd("check", SPEC) == (0, expected, "")
+
+
+@pytest.fixture
+def mistaken(tmp_path):
+    path = tmp_path / "mistaken.yaml"
+    path.write_text(SPEC.read_text().replace("steps: 20", "stepz: 20").replace("warmth > 25", "warmht > 25"))
+    return path
+
+
+def test_all_mistakes_of_all_files_are_shown_with_their_lines(mistaken):
+    code, out, err = bbsd("check", mistaken, SPEC)
+    assert (code, err) == (2, "")
+    assert 'did you mean "steps"?' in out
+    assert "    6 |   stepz: 20\n      |   ^^^^^\n" in out
+    assert f" mistakes in {mistaken}\n" in out
+    assert f"{SPEC}: ok (" in out
+
+
+def test_mistakes_as_json(mistaken):
+    code, out, err = bbsd("check", mistaken, "--format", "json")
+    assert (code, err) == (2, "")
+    first = json.loads(out)[0]
+    assert keys(json.dumps(first)) == ["file", "line", "column", "end_column", "code", "message", "advice"]
+    assert bbsd("check", SPEC, "--format", "json") == (0, "[]\n", "")
+
+
+def test_other_commands_tell_mistakes_on_standard_error(mistaken):
+    code, out, err = bbsd("compile", mistaken)
+    assert (code, out) == (2, "")
+    assert 'did you mean "steps"?' in err
+
+
+def test_a_kind_of_mistake_is_described_in_either_case():
+    code, out, err = bbsd("check", "--describe", "bb006")
+    assert (code, err) == (0, "")
+    assert out.startswith("BB006: a key given twice\n")
+
+
+def test_a_configuration_is_a_spec_that_says_where_its_values_come_from(tmp_path):
+    code, out, err = bbsd("config", SPEC.name, "--set", "design.learning.last=2", cwd=SPEC.parent)
+    assert (code, err) == (0, "")
+    notes = {
+        line.split("#")[0].strip(): line.split("#")[-1].strip() for line in out.splitlines() if "#" in line
+    }
+    assert notes["steps: 20"] == "thermostat.yaml:6"
+    assert notes["last: 2"] == "--set"
+    assert notes["tournament: 3"] == "default"
+    (tmp_path / "whole.yaml").write_text(out)
+    assert bbsd("check", "whole.yaml", cwd=tmp_path)[0] == 0
+
+
+def test_a_mistake_in_an_override_is_shown_there():
+    code, out, err = bbsd("config", SPEC, "--set", "environment.stepz=5")
+    assert (code, out) == (2, "")
+    assert err.startswith("--set:1:13: error[")
+
+
+def test_a_compiled_kernel_is_python():
+    code, out, err = bbsd("compile", SPEC)
+    assert (code, err) == (0, "")
+    assert any(isinstance(node, ast.FunctionDef) for node in ast.parse(out).body)
+
+
+def test_a_design_is_a_folder_with_a_table_for_its_reader(designed):
+    folder, (code, out, err) = designed
+    assert code == 0
+    assert {"architecture.yaml", "metrics.jsonl", "run.json", "spec.yaml", "curves.png"} <= {
+        path.name for path in folder.iterdir()
+    }
+    assert [line.split()[0] for line in out.splitlines() if line][-4:-1] == ["fitness", "lifetime", "random"]
+    assert [line.partition(":")[0] for line in err.splitlines()] == [
+        f"generation {g}/4" for g in (1, 2, 3, 4)
+    ]
+
+
+def test_a_design_is_the_same_in_another_process(designed, tmp_path):
+    with process("design", SPEC, "--out", tmp_path / "again", "--json", "--quiet") as running:
+        out, err = running.communicate()
+    assert (running.returncode, err) == (0, "")
+    result = json.loads(out)
+    assert [*result] == [
+        *("architecture", "return", "episodes", "lifetime", "random", "structure", "seconds", "seed", "runs")
+    ]
+    for name in ("architecture.yaml", "metrics.jsonl", "curves.png"):
+        assert (tmp_path / "again" / name).read_bytes() == (designed[0] / name).read_bytes()
+
+
+def test_a_run_s_folder_is_not_overwritten(designed):
+    code, out, err = bbsd("design", SPEC, "--out", designed[0])
+    assert (code, out) == (2, "")
+    assert "--resume" in err
+
+
+def test_a_folder_that_cannot_be_made_is_found_before_the_run(tmp_path):
+    (tmp_path / "file").write_text("")
+    code, out, err = bbsd("design", SPEC, "--out", tmp_path / "file" / "run")
+    assert (code, out) == (2, "")
+    assert "cannot be made" in err
+    assert "generation" not in err
+
+
+def test_nothing_is_left_to_design_in_a_design(designed, tmp_path):
+    code, out, err = bbsd("design", designed[0] / "architecture.yaml", "--out", tmp_path / "run")
+    assert (code, out) == (2, "")
+    assert "no holes" in err
+
+
+def test_a_stopped_design_says_how_to_go_on(tmp_path):
+    words = ["design", str(SPEC), "--set", "design.coevolution.generations=500"]
+    with process(*words, cwd=tmp_path) as running:
+        first = running.stderr.readline()
+        running.send_signal(signal.SIGINT)
+        out, err = running.communicate()
+    assert first.startswith("generation 50/500")
+    assert (running.returncode, out) == (130, "")
+    resumed = ["bbsd", *words, "--out", "runs/thermostat-seed0", "--resume"]
+    assert err.splitlines()[-1].endswith("To go on: " + " ".join(resumed))
+    code, out, err = bbsd(*resumed[1:], cwd=tmp_path)
+    assert code == 0
+    assert "generation 500/500" in err
+    assert "generation 50/500" not in err
+
+
+def test_an_evaluation_for_programs(designed):
+    code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", "--episodes", 50, "--json")
+    assert (code, err) == (0, "")
+    result = json.loads(out)
+    assert [*result] == [*("return", "episodes", "agents", "exact", "steps", "reward_terms", "control_share")]
+    assert [*result["return"]] == ["mean", "sd", "ci95"]
+    assert [*result["reward_terms"]] == ["comfort", "gas"]
+    assert [*result["control_share"]] == ["heat", "save", "nobody"]
+    assert sum(result["reward_terms"].values()) == pytest.approx(result["return"]["mean"])
+    assert sum(result["control_share"].values()) == pytest.approx(1)
+
+
+def test_an_evaluation_for_people(designed):
+    code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", "--episodes", 5)
+    assert (code, err) == (0, "")
+    assert "5 episodes of 20 steps" in out
+    assert "█" in out
+
+
+def test_an_output_without_block_characters_has_ascii_bars(designed):
+    code, out, _ = bbsd("evaluate", designed[0] / "architecture.yaml", "--episodes", 5, encoding="ascii")
+    assert code == 0
+    assert "####" in out
+    assert out.isascii()
+
+
+@pytest.mark.parametrize(("bound", "code"), [(-100, 0), (100, 1)])
+def test_a_design_can_be_held_to_a_bound(designed, bound, code):
+    found, out, err = bbsd(
+        "evaluate", designed[0] / "architecture.yaml", "--episodes", 5, "--at-least", bound
+    )
+    assert found == code
+    assert out.startswith("return ")
+    assert ("is below 100.00 by" in err) == bool(code)
+
+
+def test_holes_are_not_measured_unless_they_are_filled():
+    code, out, err = bbsd("evaluate", SPEC)
+    assert (code, out) == (2, "")
+    assert "heat: 3 of 3 cells open" in err
+    assert "--fill random" in err
+    code, out, _ = bbsd("evaluate", SPEC, "--fill", "random", "--agents", 5, "--episodes", 4, "--json")
+    assert code == 0
+    assert (json.loads(out)["agents"], json.loads(out)["episodes"]) == (5, 20)
+
+
+def test_an_episode_can_be_written_and_drawn(designed, tmp_path):
+    table, figure = tmp_path / "episode.csv", tmp_path / "episode.svg"
+    words = [
+        "evaluate",
+        designed[0] / "architecture.yaml",
+        "--episodes",
+        5,
+        "--trace",
+        table,
+        "--plot",
+        figure,
+    ]
+    assert bbsd(*words)[0] == 0
+    assert len(table.read_text().splitlines()) == 21
+    assert "<!-- warmth -->" in figure.read_text()
+
+
+@pytest.mark.parametrize(
+    "words", [["--trace", "no/episode.csv"], ["--plot", "episode.gif"], ["--trace", "."]]
+)
+def test_an_output_that_cannot_be_written_is_found_before_the_run(designed, tmp_path, words):
+    code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", *words, cwd=tmp_path)
+    assert (code, out) == (2, "")
+    assert err.startswith("bbsd: ")
+
+
+def test_an_explanation_as_text_and_as_json(designed):
+    code, out, err = bbsd("explain", designed[0] / "architecture.yaml")
+    assert (code, err) == (0, "")
+    assert out.startswith("thermostat: 2 layers, highest first\n")
+    code, out, err = bbsd("explain", designed[0] / "architecture.yaml", "--format", "json")
+    assert (code, err) == (0, "")
+    assert isinstance(json.loads(out), dict)
+
+
+def test_a_reader_that_stops_reading_is_no_mistake():
+    with process("compile", SPEC) as running:
+        running.stdout.close()
+        err = running.stderr.read()
+    assert (running.returncode, err) == (0, "")

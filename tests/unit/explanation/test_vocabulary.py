@@ -1,0 +1,34 @@
+from bbsd.explanation.vocabulary import actions_of, inputs_of
+from tests.unit.architecture.designs import meaning_of, shipped, small
+
+BEHAVIORS = """
+  one: {inputs: {near: x > 1}, actions: {go: {x: 1}, wait: {}}}
+  two: {inputs: {near: x > 2}, actions: {go: {x: 2}}}
+  three: {inputs: {near: x > 2}, actions: {go: {x: 2}}}
+"""
+
+
+def spec_of(text):
+    return meaning_of(text).spec
+
+
+def test_inputs_are_shown_as_the_designer_wrote_them():
+    assert dict(
+        inputs_of(spec_of(shipped("object_lifting")), ["do_not_go_fast", "stop_at_goal", "hurry_up"])
+    ) == {
+        "pace": "values(speed, 0, 5)",
+        "reached": "height >= goal",
+        "place": "lowest: height == min(height[r] for r in team); highest: height == max(height[r] for r in team); "
+        "middle: otherwise",
+        "tilted": "tilt > small_tilt",
+    }
+
+
+def test_a_word_with_several_meanings_says_whose_it_is():
+    spec = spec_of(small(BEHAVIORS))
+    assert inputs_of(spec, spec.behaviors) == (("near of one", "x > 1"), ("near of two, three", "x > 2"))
+
+
+def test_actions_say_what_they_set():
+    spec = spec_of(small(BEHAVIORS))
+    assert actions_of(spec, ["one"]) == (("go", "x: 1"), ("wait", "nothing"))
