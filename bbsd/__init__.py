@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from bbsd.api import check, compile, design, evaluate, explain, load, trace  # noqa: A004 - the verb
 
-__version__ = "0.1.0"
+from bbsd.version import __version__
 
-__all__ = ["check", "compile", "design", "evaluate", "explain", "load", "trace"]
+__all__ = ["__version__", "check", "compile", "design", "evaluate", "explain", "load", "trace"]
 
 
 def __getattr__(name: str) -> object:

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.architecture import Architecture, given_architecture, spec_changes
+from bbsd.architecture import Architecture, given_architecture, spec_changes, tidied
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.frame import Detail
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.compiler.source import module_source
-from bbsd.errors import Diagnosis, SpecError
+from bbsd.errors import Diagnosis, SpecError, UsageError
 from bbsd.evaluation import (
     Evaluation,
     Interval,
@@ -52,7 +52,7 @@ Spec = str | Path | Loaded
 """A spec's file, or one that is loaded."""
 
 
-class NothingToDesign(ValueError):
+class NothingToDesign(UsageError):
     """A spec without holes."""
 
 
@@ -217,7 +217,8 @@ def design(
             judged = _run(loaded, problem, folder, who, progress)
         except KeyboardInterrupt:
             raise Interrupted(folder.path) from None
-    text = designed_text(loaded, problem.meaning, judged.architecture, overrides)
+    architecture = tidied(problem.meaning, judged.architecture)
+    text = designed_text(loaded, problem.meaning, architecture, overrides)
     folder.architecture.write_text(text, encoding="utf-8")
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
     folder.write_note(who, {"structure": names, "return": asdict(judged.evaluation.returns)})

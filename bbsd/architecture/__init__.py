@@ -3,6 +3,7 @@
 from bbsd.architecture.architecture import Architecture, HolesLeft, given_architecture, holes
 from bbsd.architecture.policy import JointSpace, behavior_key, joint_space, policy
 from bbsd.architecture.rules import rules_of
+from bbsd.architecture.tidy import tidied
 from bbsd.architecture.written import spec_changes
 
 __all__ = [
@@ -16,4 +17,5 @@ __all__ = [
     "policy",
     "rules_of",
     "spec_changes",
+    "tidied",
 ]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.errors import UsageError
 from bbsd.spec.meaning.rules import NO_ACTION, OPEN_CELL
 from bbsd.spec.meaning.structure import OPEN_LAYER
 
@@ -24,8 +25,10 @@ class Architecture:
     structure: NDArray[np.int64]
 
 
-class HolesLeft(ValueError):
+class HolesLeft(UsageError):
     """A design was wanted, and the spec leaves something open."""
+
+    advice = "have it designed: bbsd design; or measure random agents: bbsd evaluate --fill random"
 
 
 def given_architecture(problem: Problem) -> Architecture:

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from bbsd import __version__
+from bbsd.version import __version__
 from bbsd.cli.check import check
 from bbsd.cli.compile import compile_
 from bbsd.cli.config import config

@@ -1,5 +1,6 @@
 """Where a command's words go."""
 
+import errno
 import os
 import sys
 from io import TextIOWrapper
@@ -71,9 +72,9 @@ def has_color(stream: TextIO) -> bool:
 def require_writable(path: Path) -> None:
     """Raise OSError if no file can be written at a path, before time is spent on what it is to hold."""
     if path.is_dir():
-        raise IsADirectoryError(21, os.strerror(21), str(path))
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     folder = path.parent
     if not folder.is_dir():
-        raise FileNotFoundError(2, os.strerror(2), str(folder))
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
     if not os.access(path if path.exists() else folder, os.W_OK):
-        raise PermissionError(13, os.strerror(13), str(path))
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))

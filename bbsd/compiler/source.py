@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd import __version__
 from bbsd.compiler.deciding import Decision
 from bbsd.compiler.frame import Detail, Frame, indented
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.reckoning import DETAILED, Reckoning
 from bbsd.expression.graph import Kind, Level, Node
 from bbsd.kernel import functions, streams
+from bbsd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

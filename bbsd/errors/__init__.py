@@ -5,6 +5,7 @@ from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
 from bbsd.errors.kind import Kind
 from bbsd.errors.rendering import escape, render_json, render_text
 from bbsd.errors.suggestion import did_you_mean
+from bbsd.errors.usage import UsageError
 
 __all__ = [
     "KINDS",
@@ -13,6 +14,7 @@ __all__ = [
     "Lines",
     "Place",
     "SpecError",
+    "UsageError",
     "describe",
     "did_you_mean",
     "escape",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 import numpy.typing as npt
 
+from bbsd.errors import UsageError
 from bbsd.expression.graph import Graph, Kind, Level, Node, needed, rebuilt
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 MAX_STARTS = 1_000_000
 
 
-class NotEnumerable(ValueError):
+class NotEnumerable(UsageError):
     """Why the starts of a spec cannot all be tried."""
 
 

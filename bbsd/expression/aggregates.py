@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 MAX_ELEMENTS = 10_000
 """Of a list, with those of the lists in it."""
 
+ELEMENT_WORK = 4
+
 
 class Element(NamedTuple):
     """One of the values aggregated: what `argmin` would give for it, the value, and where it is written."""
@@ -108,6 +110,7 @@ def _listed(expr: Call, argument: Expr, found: Value, scope: Scope) -> list[Elem
 def _generated(each: Each, scope: Scope, elaborate: Elaborate) -> list[Element] | None:
     elements: list[Element] = []
     items = _source(each, scope, elaborate)
+    scope.graph.spend(len(items or ()) * ELEMENT_WORK)
     for place, item in enumerate(items or ()):
         names = _unpacked(each, item, scope)
         if names is None:

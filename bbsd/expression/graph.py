@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Mapping
 
 MAX_NODES = 300_000
-MAX_ASKED = 1_500_000
-"""Nodes asked for, the ones that exist already counted again: a bound on the work of making a graph."""
+MAX_WORK = 1_500_000
+"""Nodes asked for, those that exist already counted again, with a surcharge for elements of generators."""
 
 
 class Kind(Enum):
@@ -66,7 +66,7 @@ class Graph:
     """Makes nodes, each distinct one once."""
 
     nodes: dict[tuple[Hashable, ...], Node] = field(default_factory=dict)
-    asked: int = 0
+    work: int = 0
 
     def number(self, value: float) -> Node:
         """A literal number. Zeros of both signs are different literals."""
@@ -119,6 +119,12 @@ class Graph:
             first = self.apply(operation, first, node)
         return first
 
+    def spend(self, work: int) -> None:
+        """Count the work of making the graph; raises GraphTooLargeError where it is too much."""
+        self.work += work
+        if self.work > MAX_WORK or len(self.nodes) >= MAX_NODES:
+            raise GraphTooLargeError
+
     def _simplified(self, operation: str, operands: tuple[Node, ...]) -> Node | None:
         match operation, operands:
             case "divide", (dividend, divisor) if divisor.literal and not dividend.literal:
@@ -146,9 +152,7 @@ class Graph:
         self, operation: str, operands: tuple[Node, ...], data: Hashable, kind: Kind, level: Level
     ) -> Node:
         key = (operation, kind, data, *(node.number for node in operands))
-        self.asked += 1
-        if self.asked > MAX_ASKED or len(self.nodes) >= MAX_NODES:
-            raise GraphTooLargeError
+        self.spend(1)
         if key not in self.nodes:
             self.nodes[key] = Node(len(self.nodes), operation, operands, data, kind, level)
         return self.nodes[key]

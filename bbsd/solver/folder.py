@@ -10,8 +10,9 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd import __version__
+from bbsd.errors import UsageError
 from bbsd.solver import checkpoint
+from bbsd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 FORMAT = 1
 
 
-class FolderError(ValueError):
+class FolderError(UsageError):
     """A folder that cannot be written to or gone on from, and what to do about it."""
 
 

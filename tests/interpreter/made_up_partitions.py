@@ -45,7 +45,8 @@ def of_cut(draw: Draw, reach: Reach) -> Partition:
         cells[f"from {low}"] = frozenset(range(first, len(bounds) + 1))
         for last, high in enumerate(bounds[first:], first):
             cells[f"{low} to {high}"] = frozenset(range(first, last + 1))
-    return Partition(f"cut({number(draw, reach)}, {', '.join(map(str, bounds))})", cells)
+    what = draw(st.sampled_from([number, whole]))(draw, reach)
+    return Partition(f"cut({what}, {', '.join(map(str, bounds))})", cells)
 
 
 def of_values(draw: Draw, reach: Reach) -> Partition:

@@ -6,6 +6,8 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+from bbsd.errors import UsageError
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
@@ -41,7 +43,7 @@ STYLE: dict[str, Any] = {
 }
 
 
-class FigureError(ValueError):
+class FigureError(UsageError):
     """Why a figure cannot be drawn, and what to do about it."""
 
 

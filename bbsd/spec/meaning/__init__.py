@@ -10,7 +10,7 @@ from bbsd.expression.graph import Graph, GraphTooLargeError, Kind, whole_nodes
 from bbsd.expression.mistakes import Mistake, TooManyMistakesError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
 from bbsd.kernel.streams import name_word, word_of
-from bbsd.spec.meaning.constants import Constants, read_constants
+from bbsd.spec.meaning.constants import GENERATION, Constants, read_constants
 from bbsd.spec.meaning.definitions import blocks, definitions, twice, unordered
 from bbsd.spec.meaning.episode import Episode, episode
 from bbsd.spec.meaning.names import Names
@@ -88,7 +88,8 @@ def _check_wholes(meant: Episode, constants: Constants, findings: Findings) -> N
     """Every value used as an index or in values(...) must be whole, given that the slots it reads are."""
     is_whole = cache(constants.whole)
     nodes = [node for *_, node in findings.wholes]
-    whole = whole_nodes(nodes, _whole_slots(meant, is_whole), is_whole)
+    slots = {**_whole_slots(meant, is_whole), GENERATION: True}
+    whole = whole_nodes(nodes, slots, is_whole)
     for path, span, purpose, node in findings.wholes:
         if not whole[node.number]:
             message = f"{purpose} must be a whole number, and this need not be one"

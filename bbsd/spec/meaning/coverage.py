@@ -6,7 +6,7 @@ from itertools import pairwise, product
 from math import inf
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Kind, Node, compute, needed, value_of
+from bbsd.expression.graph import Graph, Kind, Node, compute, value_of
 from bbsd.expression.operations import COMPARISONS, INFIX
 
 if TYPE_CHECKING:
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 MAX_CASES = 4096
 MAX_WORK = 1_000_000
+MAX_ATOMS = 300
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
@@ -27,15 +28,16 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
     anything = graph.fold("|", conditions)
     if anything.literal:
         return bool(value_of(anything))
-    atoms = [node for node in _down_to_atoms(anything) if _is_atom(node)]
+    nodes = _down_to_atoms(anything)
     cases = 1
     choices: dict[tuple[int, ...], list[dict[int, bool]]] = {}
-    for key, group in _groups(atoms).items():
+    for key, group in _groups(node for node in nodes if _is_atom(node)).items():
+        if len(group) > MAX_ATOMS:
+            return False
         choices[key] = _cases(group)
         cases *= len(choices[key])
         if cases > MAX_CASES:
             return False
-    nodes = [node for node in needed([anything]) if node.kind is Kind.TRUTH]
     if cases * len(nodes) > MAX_WORK:
         return False
     return all(_holds(nodes, combination) for combination in product(*choices.values()))

@@ -124,13 +124,12 @@ def _too_high(
     trees = {name: [each.tree for each in written] for name, written in _written(spec).items()}
     trees |= {name: [definition.expression] for name, definition in defined.items()}
     weights = {name: LINK + max(map(frames, of), default=0) for name, of in trees.items()}
-    uses = {name: others for name, others in _episodes_uses(spec, defined).items() if name not in unordered}
-    found: dict[str, Unusable] = {}
-    for name, height in heights(among_themselves(uses), weights).items():
-        if MAX_HEIGHT < height <= MAX_HEIGHT + weights[name]:
-            found[name] = Unusable()
+    ordered = {name: used for name, used in _episodes_uses(spec, defined).items() if name not in unordered}
+    uses = among_themselves(ordered)
+    found = {name: Unusable() for name, height in heights(uses, weights).items() if height > MAX_HEIGHT}
+    places = dict(blocks(spec, defined))
+    for name in found:
+        if uses[name].isdisjoint(found):
             message = f"{name} needs too long a chain of values, each computed from the next"
-            findings.tell(
-                dict(blocks(spec, defined))[name], "BB060", message, KEY, "keep one of them as state"
-            )
+            findings.tell(places[name], "BB060", message, KEY, "keep one of them as state")
     return found

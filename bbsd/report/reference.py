@@ -1,0 +1,160 @@
+"""The parts of the language's reference that follow from the code: its keys, its words, its mistakes.
+
+`docs/language.md` holds them between marks; a test compares, and writes them anew with --update-golden.
+"""
+
+from __future__ import annotations
+
+import re
+from types import UnionType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic_core import PydanticUndefined
+
+from bbsd.errors import KINDS
+from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, RESERVED
+from bbsd.spec import design, models
+from bbsd.spec.base import Part
+from bbsd.spec.written import Expression
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from pydantic.fields import FieldInfo
+
+BLOCKS: Mapping[str, tuple[type[Part], ...]] = {
+    "The top level": (models.Spec,),
+    "environment": (models.Environment,),
+    "behaviors": (models.Behavior,),
+    "rules": (models.When, models.Otherwise),
+    "design": (design.Design,),
+    "design.coevolution": (design.Coevolution,),
+    "design.learning": (design.Learning,),
+    "design.culture": (design.CultureSettings,),
+    "design.answer": (design.Answer,),
+}
+"""Headings, and the parts of a spec that are described under each."""
+
+MARKED = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+
+def filled(document: str) -> str:
+    """Return a document with what stands between its marks written anew; KeyError for an unknown mark."""
+    return MARKED.sub(lambda found: f"{found[1]}\n{SECTIONS[found[2]]()}\n{found[3]}", document)
+
+
+def keys_text() -> str:
+    """All keys of a spec, block by block."""
+    return "\n".join(_block_text(title, parts) for title, parts in BLOCKS.items())
+
+
+def functions_text() -> str:
+    """The functions of numbers."""
+    rows = ((f"`{name}`", str(each.arity), each.meaning) for name, each in FUNCTIONS.items())
+    return _table(("function", "arguments", "value"), rows)
+
+
+def aggregates_text() -> str:
+    """What makes one value of several."""
+    return _table(("aggregate", "value"), ((f"`{name}`", meaning) for name, meaning in AGGREGATES.items()))
+
+
+def draws_text() -> str:
+    """The random draws."""
+    rows = ((f"`{name}`", str(arity), meaning) for name, (arity, meaning) in DRAWS.items())
+    return _table(("draw", "arguments", "value"), rows)
+
+
+def reserved_text() -> str:
+    """The words that cannot be names."""
+    return " ".join(f"`{word}`" for word in sorted(RESERVED)) + "\n"
+
+
+def mistakes_text() -> str:
+    """The codes of mistakes."""
+    return _table(("code", "mistake"), ((code, _cell(kind.title)) for code, kind in KINDS.items()))
+
+
+SECTIONS: Mapping[str, Callable[[], str]] = {
+    "keys": keys_text,
+    "functions": functions_text,
+    "aggregates": aggregates_text,
+    "draws": draws_text,
+    "reserved": reserved_text,
+    "mistakes": mistakes_text,
+}
+
+
+def _block_text(title: str, parts: Iterable[type[Part]]) -> str:
+    sections = [f"### {title}\n"]
+    for part in parts:
+        rows = (
+            (f"`{name}`", _kind(field.annotation) + _bounds(field), _default(field), field.description or "")
+            for name, field in part.model_fields.items()
+        )
+        table = _table(("key", "value", "default", "meaning"), (map(_cell, row) for row in rows))
+        sections.append(f"{part.__doc__}\n\n{table}")
+    return "\n".join(sections)
+
+
+def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    lines = [list(head)]
+    lines += [["---"] * len(lines[0]), *(list(row) for row in rows)]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("<", "&lt;")
+
+
+def _kind(annotation: Any) -> str:  # noqa: ANN401 - a type, of any kind
+    """What may stand under a key, in the words of the language."""
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        return _kind(arguments[0])
+    if origin is Literal:
+        return " or ".join(f"`{argument}`" for argument in arguments)
+    if origin is dict:
+        return f"NAME: {_kind(arguments[1])}"
+    if origin is list:
+        return f"list of {_kind(arguments[0])}"
+    if origin in (Union, UnionType):
+        kinds = [_kind(argument) for argument in arguments if argument is not type(None)]
+        return ", or ".join(dict.fromkeys(kinds))
+    if isinstance(annotation, type) and issubclass(annotation, Part):
+        return "a block"
+    return KIND_NAMES[annotation]
+
+
+KIND_NAMES: Mapping[Any, str] = {
+    Any: "expression or table",
+    Expression: "expression",
+    float: "number",
+    int: "whole number",
+    str: "text",
+}
+
+
+def _bounds(field: FieldInfo) -> str:
+    """The least and the greatest number that may stand there."""
+    low, high = (
+        next((getattr(rule, name) for rule in field.metadata if hasattr(rule, name)), None)
+        for name in ("ge", "le")
+    )
+    if low is None:
+        return ""
+    return f", at least {low:,}" if high is None else f", {low:,} to {high:,}"
+
+
+def _default(field: FieldInfo) -> str:
+    match field.default:
+        case _ if field.default is PydanticUndefined:
+            return "required"
+        case None | "" | Part() | {}:
+            return ""
+        case Expression(text=text):
+            return f"`{text}`"
+        case float() | int() as number:
+            return f"{number:,}"
+        case text:
+            return f"`{text}`"

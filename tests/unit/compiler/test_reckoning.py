@@ -1,0 +1,110 @@
+import numpy as np
+
+from tests.unit.problems import RICH, episode_of, lived, problem_of
+
+COUNTING = """
+bbsd: 1
+name: counting
+environment:
+  robots: 2
+  steps: 5
+  state: {{x: robot}}
+  dynamics: {{x: x + 1}}
+  ends: {ends}
+behaviors:
+  low: {{inputs: {{far: x >= 3}}, actions: {{a: {{x: x}}}}}}
+  high: {{inputs: {{far: x >= 3}}, actions: {{a: {{x: x}}}}}}
+reward: {{place: {place}, each: 10}}
+"""
+
+
+def counting(ends="false", place="x"):
+    """Robots that start at 0 and 1 and go on by 1 a step."""
+    return problem_of(COUNTING.format(ends=f'"{ends}"', place=f'"{place}"'))
+
+
+NEAR_AND_FAR = [[1, 0], [0, 1]]  # low controls near, high far
+
+
+def test_a_robot_s_part_goes_to_what_controlled_it():
+    outcome = episode_of(counting(), NEAR_AND_FAR, [0, 1])
+    # Robot 0 is at 0, 1, 2 under low and earns 11, 12, 13; then at 3, 4 under high: 14, 15.
+    # Robot 1 is at 1, 2 under low and earns 12, 13; then at 3, 4, 5 under high: 14, 15, 16.
+    assert outcome.credit.tolist() == [[(36 + 25) / 2, (29 + 45) / 2, 0]]
+    assert outcome.control.tolist() == [[5, 5, 0]]
+    assert outcome.returns.tolist() == [(65 + 70) / 2]
+
+
+def test_what_nobody_controlled_is_nobody_s():
+    outcome = episode_of(counting(), [[1, 0], [1, 0]], [0, 1])
+    assert outcome.credit.tolist() == [[0, (36 + 25) / 2, (29 + 45) / 2]]
+    assert outcome.control.tolist() == [[0, 5, 5]]
+
+
+def test_terms_sum_up_to_the_return():
+    outcome = episode_of(counting(), NEAR_AND_FAR, [0, 1])
+    assert outcome.terms.tolist() == [[(15 + 20) / 2, 50]]
+
+
+def test_the_step_in_which_an_episode_ends_is_the_last_that_counts():
+    outcome = episode_of(counting(ends="any(x[r] >= 3 for r in team)"), NEAR_AND_FAR, [0, 1])
+    assert outcome.taken.tolist() == [2]
+    assert outcome.returns.tolist() == [(11 + 12 + 12 + 13) / 2]
+    assert outcome.credit.tolist() == [[(23 + 25) / 2, 0, 0]]
+    assert outcome.control.tolist() == [[4, 0, 0]]
+    assert outcome.terms.tolist() == [[(1 + 2 + 2 + 3) / 2, 20]]
+
+
+def test_what_is_not_finite_after_the_end_is_not_earned():
+    outcome = episode_of(counting(ends="step == 2", place="1 / (3 - step)"), NEAR_AND_FAR, [0, 1])
+    assert outcome.returns.tolist() == [0.5 + 1 + 20]
+
+
+def test_lanes_end_by_themselves():
+    text = """
+    bbsd: 1
+    name: lanes
+    environment: {steps: 50, state: {x: "integers(1, 40)"}, dynamics: {x: x - 1}, ends: x <= 0}
+    behaviors: {idle: {actions: {a: {x: x}}}}
+    reward: {each: 1}
+    """
+    alone, together = (lived(problem_of(text, lanes=lanes), 30) for lanes in (1, 30))
+    assert len(set(alone.taken)) > 10
+    np.testing.assert_array_equal(alone.taken, alone.returns)
+    np.testing.assert_array_equal(together.taken, alone.taken)
+    np.testing.assert_array_equal(together.control, alone.control)
+
+
+def test_steps_in_which_a_value_is_not_finite_are_counted_by_its_place():
+    text = """
+    bbsd: 1
+    name: odd
+    environment:
+      robots: 2
+      steps: 4
+      world: {w: 0}
+      state: {x: 1}
+      dynamics: {w: "1 / (step - 2)"}
+      sensors: {s: "list(log(robot), sqrt(x - step))"}
+      ends: step == 3
+    behaviors: {idle: {actions: {a: {x: x}}}}
+    reward: {each: 1}
+    """
+    problem = problem_of(text)
+    counted = dict(zip(problem.places, episode_of(problem, [[0]], [0]).odd[0].tolist(), strict=True))
+    assert counted == {
+        ("w", None, ()): 1,
+        ("x", 0, ()): 0,
+        ("x", 1, ()): 0,
+        ("s", 0, (0,)): 3,
+        ("s", 0, (1,)): 2,
+        ("s", 1, (0,)): 0,
+        ("s", 1, (1,)): 2,
+    }
+
+
+def test_the_columns_of_credit_earn_the_return_together():
+    outcome = lived(problem_of(RICH), 20)
+    np.testing.assert_allclose(outcome.credit.sum(axis=1), outcome.returns, rtol=1e-12)
+    np.testing.assert_allclose(outcome.terms.sum(axis=1), outcome.returns, rtol=1e-12)
+    np.testing.assert_array_equal(outcome.control.sum(axis=1), 3 * outcome.taken)
