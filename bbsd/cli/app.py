@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from bbsd.version import __version__
 from bbsd.cli.check import check
 from bbsd.cli.compile import compile_
 from bbsd.cli.config import config
@@ -14,6 +13,7 @@ from bbsd.cli.evaluate import evaluate
 from bbsd.cli.explain import explain
 from bbsd.cli.mistakes import told
 from bbsd.cli.output import never_fail_to_encode
+from bbsd.version import __version__
 
 app = typer.Typer(
     name="bbsd",

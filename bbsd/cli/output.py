@@ -37,7 +37,7 @@ def show_table(table: "RenderableType") -> None:
     """Print a table, as wide as its terminal, without color where that is not wanted."""
     console = _console(sys.stdout)
     with console.capture() as capture:
-        console.print(table)
+        console.print(table, crop=False)
     show("\n".join(line.rstrip() for line in capture.get().splitlines()))
 
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 PRECEDENCE = {"|": 2, "&": 3, "+": 5, "-": 5, "*": 6}
 LOWEST, COMPARISON, SIGN, ATOM = 0, 1, 7, 9
 LONGEST = 88
+DEEPEST = 50
+"""Operations within one another at which a value gets a name, however short its text."""
 TOP_BIT = 1 << 63  # a literal from here on is uint64 in compiled code
 
 Text = tuple[str, int]
@@ -49,26 +51,42 @@ class Emitter:
     used: set[str] = field(default_factory=set)
     """Functions of the kernel that the source calls."""
     uses: Counter[int] = field(default_factory=Counter)
+    deep: set[int] = field(default_factory=set)
+    """Nodes far above their leaves and not yet written: they are written first, so that nothing recurses far."""
 
     def prepare(self, outputs: Iterable[Node]) -> None:
-        """Count how often each value is used by what is to be written into the present blocks."""
+        """Count how often each value is used by what is to be written into the present blocks, and see how deep."""
         outputs = list(outputs)
-        self.uses = Counter(operand.number for node in needed(outputs) for operand in node.operands)
+        every = needed(outputs)
+        self.uses = Counter(operand.number for node in every for operand in node.operands)
         self.uses.update(node.number for node in outputs)
+        self.deep = _deep(every)
 
-    def value(self, node: Node, level: Level = Level.LANE) -> str:
+    def value(self, node: Node) -> str:
         """The source of a value as an operand on its own; what it needs is written into the blocks first."""
-        return self._text(node, level)[0]
+        self._write_deep(node)
+        return self._text(node, Level.LANE)[0]
 
     def operand(self, node: Node, *, tight: bool) -> str:
         """The source of a value as an operand of a sum, or as all of an expression."""
+        self._write_deep(node)
         return self._operand(node, Level.LANE, PRECEDENCE["+"] + 1 if tight else LOWEST)
 
     def named(self, node: Node, wanted: str) -> str:
         """A name or literal for a value: its own if it has one, else the one wanted."""
         if node.literal or self._trivial(node):
             return self.value(node)
+        self._write_deep(node)
         return self._define(node, wanted)
+
+    def _write_deep(self, node: Node) -> None:
+        """Name the deep values that a value needs, the lowest first."""
+        if not self.deep:
+            return
+        for operand in needed(node.operands):
+            if operand.number in self.deep:
+                self._define(operand, self.hints.get(operand.number))
+                self.deep.remove(operand.number)
 
     def _text(self, node: Node, level: Level) -> Text:
         if node.literal:
@@ -131,7 +149,7 @@ class Emitter:
         if operation == "gather":
             return self._gather(node), ATOM
         return self._call(
-            operation, [*(self.value(operand, level) for operand in operands), *_data(node)]
+            operation, [*(self._text(operand, level)[0] for operand in operands), *_data(node)]
         ), ATOM
 
     def _call(self, function: str, arguments: Iterable[str]) -> str:
@@ -145,15 +163,26 @@ class Emitter:
         block = self.blocks[Level.STEP]
         name = self.namer.numbered("draw")
         block.lines.append(f"{name} = {stream}")
-        return self._call(distribution, [self.key, name, *(self.value(operand) for operand in node.operands)])
+        return self._call(
+            distribution, [self.key, name, *(self._text(operand, Level.LANE)[0] for operand in node.operands)]
+        )
 
     def _gather(self, node: Node) -> str:
         base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", node.data)
         terms = [str(base)] if base else []
         for stride, length, index in zip(strides, lengths, node.operands, strict=True):
-            place = self._call("clamp_index", [self.value(index), str(length - 1)])
+            place = self._call("clamp_index", [self._text(index, node.level)[0], str(length - 1)])
             terms.append(place if stride == 1 else f"{stride} * {place}")
         return f"constants[{' + '.join(terms)}]"
+
+
+def _deep(nodes: Iterable[Node]) -> set[int]:
+    """Of nodes, operands first, those that are so many operations above a leaf or another of them."""
+    depths: dict[int, int] = {}
+    for node in nodes:
+        depth = 1 + max((depths[operand.number] for operand in node.operands), default=-1)
+        depths[node.number] = depth % DEEPEST
+    return {node.number for node in nodes if node.operands and depths[node.number] == 0}
 
 
 def _data(node: Node) -> list[str]:

@@ -265,4 +265,15 @@ SPEC_KINDS = (
         example="design:\n  learning:\n    rate: 2 / episode",
         mend="design:\n  learning:\n    rate: 1 / episode",
     ),
+    Kind(
+        code="BB045",
+        title="a reward that is not finite",
+        explanation=(
+            "A term of the reward became infinite or no number while episodes ran, by a division by zero "
+            "or the like. Division, overflow and roots of negative numbers are no errors in themselves, "
+            "but nothing can be learned from what they leave in the reward."
+        ),
+        example="reward:\n  near: 1 / (height - height)",
+        mend="reward:\n  near: 1 / max(height, 0.01)",
+    ),
 )

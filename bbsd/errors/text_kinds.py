@@ -64,8 +64,8 @@ TEXT_KINDS = (
         explanation=(
             "<< was an addition to YAML 1.1; in YAML 1.2, which specs are written in, it has no meaning."
         ),
-        example="fast:\n  <<: *common\n  excited: tilt > 2",
-        mend="fast:\n  inputs: *seen      # where another has   inputs: &seen [...]\n  excited: tilt > 2",
+        example="slow: &slow\n  excited: tilted\nfast:\n  <<: *slow",
+        mend="slow:\n  excited: &when tilted\nfast:\n  excited: *when",
     ),
     Kind(
         code="BB008",

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from bbsd.kernel.streams import fold
+from bbsd.kernel.streams import fold, unit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,3 +21,8 @@ def keys(key: int, first: int, count: int) -> NDArray[np.uint64]:
 def folded(streams: NDArray[np.uint64], word: int) -> NDArray[np.uint64]:
     """The stream called `word` within each of the streams; (n,)."""
     return cast("NDArray[np.uint64]", fold(streams, word))  # type: ignore[arg-type]  # the arithmetic is elementwise
+
+
+def units(streams: NDArray[np.uint64]) -> NDArray[np.float64]:
+    """A number in [0, 1) for each stream, as `streams.unit` makes it of its bits; (n,)."""
+    return cast("NDArray[np.float64]", unit(streams))  # type: ignore[arg-type]  # the arithmetic is elementwise

@@ -104,12 +104,14 @@ def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
 
 
 def _cell(text: str) -> str:
-    return text.replace("|", "\\|").replace("<", "&lt;")
+    return text.replace("|", "\\|")
 
 
 def _kind(annotation: Any) -> str:  # noqa: ANN401 - a type, of any kind
     """What may stand under a key, in the words of the language."""
     origin, arguments = get_origin(annotation), get_args(annotation)
+    if annotation == models.PartitionText:
+        return "partition"
     if origin is Annotated:
         return _kind(arguments[0])
     if origin is Literal:
@@ -117,12 +119,12 @@ def _kind(annotation: Any) -> str:  # noqa: ANN401 - a type, of any kind
     if origin is dict:
         return f"NAME: {_kind(arguments[1])}"
     if origin is list:
-        return f"list of {_kind(arguments[0])}"
+        return f"list of {_kind(arguments[0])}s"
     if origin in (Union, UnionType):
         kinds = [_kind(argument) for argument in arguments if argument is not type(None)]
         return ", or ".join(dict.fromkeys(kinds))
     if isinstance(annotation, type) and issubclass(annotation, Part):
-        return "a block"
+        return "block"
     return KIND_NAMES[annotation]
 
 

@@ -41,7 +41,9 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
 
 def design_table(designed: DesignResult) -> RenderableType:
     """Return the structure from top to bottom, and the design's fitness beside that of random agents."""
-    where = Text(f"{escape(str(designed.architecture))}, designed in {duration(designed.seconds)}")
+    path = escape(str(designed.architecture))
+    # A path is copied as a whole, so no terminal is too narrow for it.
+    where = Text(f"{path}, designed in {duration(designed.seconds)}", no_wrap=True, overflow="ignore")
     return Group(*_separated([_structure(designed.structure), _fitness(designed), where]))
 
 
@@ -112,7 +114,7 @@ def _fitness(designed: DesignResult) -> Table:
     """All numbers have the same decimals, so that they can be compared at a glance."""
     rows = {
         "fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "fresh episode")),
-        "lifetime fitness": (designed.lifetime, count(designed.lifetime.count, "agent")),
+        "lifetime fitness": (designed.lifetime, f"{count(designed.lifetime.count, 'agent')} born with it"),
         "random agents": (designed.random, count(designed.random.count, "agent")),
     }
     texts = column([value for each, _ in rows.values() for value in (each.mean, each.low, each.high)])

@@ -31,7 +31,7 @@ class Champions:
 
     def joined(self, agents: Agents, fitness: NDArray[np.float64]) -> Champions:
         """The champions after a generation's agents were added."""
-        best = np.argsort(-fitness, kind="stable")[: self.capacity]
+        best = fittest(agents, fitness, self.capacity)
         tables = np.concatenate(
             [pool[agents.members[best, index]] for index, pool in enumerate(agents.pools)], axis=1
         )
@@ -54,6 +54,18 @@ class Champions:
             Architecture(tuple(np.split(tables, ends)), structure)
             for tables, structure in zip(self.tables, self.structures, strict=True)
         ]
+
+
+def fittest(agents: Agents, fitness: NDArray[np.float64], number: int) -> list[int]:
+    """The fittest agents of a generation, each different genotype once, the fittest first."""
+    found: dict[bytes, int] = {}
+    for agent in np.argsort(-fitness, kind="stable"):
+        if len(found) == number:
+            break
+        architecture = agents.architecture(int(agent))
+        genotype = b"".join(part.tobytes() for part in (*architecture.tables, architecture.structure))
+        found.setdefault(genotype, int(agent))
+    return list(found.values())
 
 
 def no_champions(problem: Problem, capacity: int) -> Champions:

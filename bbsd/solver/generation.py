@@ -13,7 +13,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import sharing
 from bbsd.solver.champions import Champions, no_champions
 from bbsd.solver.culture import Culture, draw_memes, empty_culture, take_in
-from bbsd.solver.genetics import next_pool, random_pool
+from bbsd.solver.genetics import expected_fitness, next_pool, random_pool
 from bbsd.solver.lifetime import Lives, live
 from bbsd.solver.pairing import members
 from bbsd.solver.structures import random_structures
@@ -80,9 +80,11 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
     generation = state.generation + 1
     key = fold(run_key, word_of(generation))
 
-    pools = state.pools if generation == 1 else bred(state, problem, settings, fold(key, BREEDING))
+    pools, expected = state.pools, [np.zeros(len(pool)) for pool in state.pools]
+    if generation > 1:
+        pools, expected = bred(state, problem, settings, fold(key, BREEDING))
     # Select n different behavior modules from each pool; select a meme T0, the initial structure.
-    who = members(fold(key, PAIRING), [len(pool) for pool in pools], settings.coevolution.agents)
+    who = members(fold(key, PAIRING), expected, settings.coevolution.agents, settings.coevolution.pairing)
     agents = Agents(pools, who, born(state.culture, problem, settings, key, len(who)))
     # For a lifetime: choose T* (9), interact, receive reinforcement, update the values (13).
     lives = live(problem, agents, keys(fold(key, LIVES), 0, len(agents)), generation, settings.learning)
@@ -118,19 +120,22 @@ def share(
     return sharing.value_based(lives.values, who, settings.coevolution.population)
 
 
-def bred(state: State, problem: Problem, settings: Settings, key: int) -> tuple[Pool, ...]:
-    """Apply selection, crossover and mutation to each pool, at the rates of the generation that ended."""
+def bred(
+    state: State, problem: Problem, settings: Settings, key: int
+) -> tuple[tuple[Pool, ...], list[NDArray[np.float64]]]:
+    """Apply selection, crossover and mutation to each pool, at the rates of the generation that ended.
+
+    Returns the pools, and the fitness expected of their individuals, (population,) each.
+    """
     breeding = settings.coevolution.breeding(state.generation)
-    return tuple(
-        next_pool(
-            fold(key, word_of(index)),
-            pool,
-            state.fitness[index, : len(pool)],
-            table.n_actions,
-            table.given,
-            breeding,
-        )
-        if problem.evolves(index)
-        else pool
-        for index, (pool, table) in enumerate(zip(state.pools, problem.tables, strict=True))
-    )
+    pools: list[Pool] = []
+    expected = []
+    for index, (pool, table) in enumerate(zip(state.pools, problem.tables, strict=True)):
+        stream, fitness = fold(key, word_of(index)), state.fitness[index, : len(pool)]
+        if table.n_open:
+            pools.append(next_pool(stream, pool, fitness, table.n_actions, table.given, breeding))
+            expected.append(expected_fitness(stream, fitness, breeding))
+        else:
+            pools.append(pool)
+            expected.append(np.zeros(len(pool)))
+    return tuple(pools), expected

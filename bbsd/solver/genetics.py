@@ -70,11 +70,46 @@ def next_pool(
         len(elites),
         breeding.tournament,
         breeding.crossover,
+        breeding.children,
         breeding.hard_mutation,
         breeding.soft_mutation,
         children,
     )
     return children
+
+
+def expected_fitness(key: int, fitness: NDArray[np.float64], breeding: Breeding) -> NDArray[np.float64]:
+    """What is expected of the individuals that `next_pool` makes of the same key.
+
+    An elite's own fitness, a child's parents' mean; individuals that took part in no agent count as the worst.
+    Arguments as of `next_pool`; returns (population,).
+    """
+    known = np.where(
+        np.isfinite(fitness), fitness, np.min(fitness, where=np.isfinite(fitness), initial=np.inf)
+    )
+    elites = np.argsort(-fitness, kind="stable")[: breeding.elites]
+    expected = np.empty_like(fitness)
+    expected[: len(elites)] = known[elites]
+    expect(np.uint64(key), fitness, known, len(elites), breeding.tournament, breeding.children, expected)
+    return expected
+
+
+@jit
+def expect(
+    key: np.uint64,
+    fitness: NDArray[np.float64],
+    known: NDArray[np.float64],
+    n_elites: int,
+    n_entrants: int,
+    n_siblings: int,
+    expected: NDArray[np.float64],
+) -> None:
+    """The mean of the parents that `breed` chooses with the same key, for each child."""
+    for slot in range(n_elites, len(expected)):
+        family = fold(int(key), word_of(slot - (slot - n_elites) % n_siblings))
+        first = tournament(fold(family, word_of(FIRST_PARENT)), fitness, n_entrants)
+        second = tournament(fold(family, word_of(SECOND_PARENT)), fitness, n_entrants)
+        expected[slot] = (known[first] + known[second]) / 2.0
 
 
 @jit
@@ -94,6 +129,7 @@ def breed(
     n_elites: int,
     n_entrants: int,
     p_crossover: float,
+    n_siblings: int,
     p_hard: float,
     p_soft: float,
     children: NDArray[np.uint8],
@@ -102,9 +138,13 @@ def breed(
     for slot in range(n_elites, len(children)):
         stream = fold(int(key), word_of(slot))
         child = children[slot]
-        first = tournament(fold(stream, word_of(FIRST_PARENT)), fitness, n_entrants)
-        second = tournament(fold(stream, word_of(SECOND_PARENT)), fitness, n_entrants)
-        crossover(fold(stream, word_of(MASK)), pool[first], pool[second], p_crossover, child)
+        place = (slot - n_elites) % n_siblings
+        family = fold(int(key), word_of(slot - place))
+        first = tournament(fold(family, word_of(FIRST_PARENT)), fitness, n_entrants)
+        second = tournament(fold(family, word_of(SECOND_PARENT)), fitness, n_entrants)
+        if place == 1:  # the second child has the complement of the mask
+            first, second = second, first
+        crossover(fold(family, word_of(MASK)), pool[first], pool[second], p_crossover, child)
         if chance(stream, word_of(HARD), p_hard):
             redraw(fold(stream, word_of(RANDOM_TABLE)), child, given, n_actions, 1.0)
         redraw(fold(stream, word_of(SOFT)), child, given, n_actions, p_soft)

@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.compiler import DetailedOutcome
 from bbsd.evaluation import require_finite
-from bbsd.kernel.keys import folded
+from bbsd.kernel.keys import folded, units
 from bbsd.kernel.streams import name_word
-from bbsd.solver.structures import search_exact, search_sampled, update_values
+from bbsd.solver.counters import no_counters
+from bbsd.solver.structures import random_structures, search_exact, search_sampled, update_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,7 +24,8 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Agents
     from bbsd.solver.settings import Learning
 
-EPISODE, SEARCH = name_word("episode"), name_word("search")
+EPISODE, SEARCH, EXPLORE = name_word("episode"), name_word("search"), name_word("explore")
+WHETHER = name_word("whether")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,15 +50,28 @@ def live(
     team = problem.assemble(agents.pools, agents.members, generation)
     structures = agents.structures
     values = np.zeros((len(agents), structures.shape[1], problem.n_behaviors))
+    counters = no_counters(*values.shape) if learning.estimate == "counters" else None
     returns = np.empty((len(agents), learning.lifetime))
     for episode in range(1, learning.lifetime + 1):
         if learning.learned and episode > 1:
             structures = choose(problem, folded(folded(keys, SEARCH), episode), values, structures, learning)
+            structures = explore(
+                problem, folded(folded(keys, EXPLORE), episode), structures, learning, episode
+            )
         streams = folded(folded(keys, EPISODE), episode)
-        outcome = team.episode(streams, structures)
+        outcome = (
+            team.episode(streams, structures)
+            if counters is None
+            else team.detailed_episode(streams, structures)
+        )
         where = f"generation {generation}, episode {episode}"
         require_finite(problem, agents.living(structures), streams, outcome.returns, generation, where)
-        update_values(values, structures, outcome.credit, float(learning.rate[episode - 1]))
+        rate = float(learning.rate[episode - 1])
+        if isinstance(outcome, DetailedOutcome) and counters is not None:
+            counters.update(structures, outcome.credit, outcome.control, rate)
+            values = counters.joint()
+        else:
+            update_values(values, structures, outcome.credit, rate)
         returns[:, episode - 1] = outcome.returns
     return Lives(returns, structures, values)
 
@@ -71,3 +87,19 @@ def choose(
     if learning.search == "exact":
         return search_exact(values, structures, problem.layers, problem.candidates)
     return search_sampled(keys, values, structures, problem.layers, problem.candidates, learning.candidates)
+
+
+def explore(
+    problem: Problem,
+    keys: NDArray[np.uint64],
+    structures: NDArray[np.int64],
+    learning: Learning,
+    episode: int,
+) -> NDArray[np.int64]:
+    """A random structure for some agents, with the probability of the episode, never in the last K episodes."""
+    probability = float(learning.exploration[episode - 1])
+    if probability == 0.0 or episode > learning.lifetime - learning.last:
+        return structures
+    explores = units(folded(keys, WHETHER)) < probability
+    random = random_structures(keys, problem.layers, problem.candidates)
+    return np.where(explores[:, None], random, structures)

@@ -1,4 +1,4 @@
-"""Which modules meet in an agent (V.B.1): every individual equally often, in random order."""
+"""Which modules meet in an agent (V.B.1): every individual equally often in random order, at random, or by fitness."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.kernel.jit import jit
+from bbsd.kernel.keys import keys, units
 from bbsd.kernel.streams import fold, word_of
+from bbsd.solver.culture import wheel
 from bbsd.solver.draws import shuffle
 
 if TYPE_CHECKING:
@@ -16,19 +18,38 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def members(key: int, populations: Sequence[int], n_agents: int) -> NDArray[np.int64]:
+def members(
+    key: int, expected: Sequence[NDArray[np.float64]], n_agents: int, pairing: str = "balanced"
+) -> NDArray[np.int64]:
     """The individual of each pool that each agent is made of.
 
     Args:
         key: the generation's stream for pairing.
-        populations: the number of individuals in each pool.
+        expected: for each pool, the fitness expected of its individuals, (population,).
         n_agents: how many agents live in a generation.
+        pairing: balanced, random, or proportional to what is expected.
 
     Returns:
         (n_agents, n_behaviors).
     """
-    columns = [balanced(fold(key, word_of(pool)), size, n_agents) for pool, size in enumerate(populations)]
+    streams = [fold(key, word_of(pool)) for pool in range(len(expected))]
+    if pairing == "balanced":
+        columns = [
+            balanced(stream, len(pool), n_agents) for stream, pool in zip(streams, expected, strict=True)
+        ]
+    else:
+        weights = [
+            wheel(pool) if pairing == "proportional" else np.arange(1.0, len(pool) + 1) for pool in expected
+        ]
+        columns = [spun(stream, ends, n_agents) for stream, ends in zip(streams, weights, strict=True)]
     return np.stack(columns, axis=1)
+
+
+def spun(key: int, ends: NDArray[np.float64], n_agents: int) -> NDArray[np.int64]:
+    """For each agent the sector in which a roulette wheel stops, its sectors ending at `ends`; (n_agents,)."""
+    places = units(keys(key, 0, n_agents)) * ends[-1]
+    chosen: NDArray[np.int64] = np.minimum(np.searchsorted(ends, places, side="right"), len(ends) - 1)
+    return chosen
 
 
 def balanced(key: int, population: int, n_agents: int) -> NDArray[np.int64]:

@@ -14,7 +14,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import metrics
 from bbsd.solver.answer import answer, different
 from bbsd.solver.checkpoint import Progress
-from bbsd.solver.generation import State, beginning, born, next_generation
+from bbsd.solver.generation import beginning, next_generation
 from bbsd.solver.lifetime import live
 from bbsd.solver.race import race
 from bbsd.solver.random_agents import random_agents
@@ -80,7 +80,7 @@ class Judgement:
     architecture: Architecture
     evaluation: Evaluation
     lifetime: Interval
-    """Lifetime fitness of agents with these behaviors that are born into the last run's culture, over agents."""
+    """Lifetime fitness of agents that are born with the design and go on learning, over agents."""
     random: Interval
     """Random agents of the same space, over agents."""
 
@@ -100,17 +100,12 @@ def judge(progress: Progress, problem: Problem, settings: Settings, seed: int) -
     judged = evaluation(problem, detailed(problem, agents_of([best]), fresh, generation), 1)
     strangers = random_agents(problem, fold(key, RANDOM), RANDOM_AGENTS)
     earned = returns_of(problem, strangers, keys(fold(key, RANDOM), 0, RANDOM_EPISODES), generation)
-    return Judgement(
-        best, judged, _lifetime(best, progress.state, problem, settings, key), interval(earned.mean(axis=1))
-    )
+    return Judgement(best, judged, _lifetime(best, problem, settings, key), interval(earned.mean(axis=1)))
 
 
-def _lifetime(best: Architecture, state: State, problem: Problem, settings: Settings, key: int) -> Interval:
+def _lifetime(best: Architecture, problem: Problem, settings: Settings, key: int) -> Interval:
     n_agents = settings.coevolution.agents
-    stream = fold(key, LIFETIMES)
-    newborn = born(state.culture, problem, settings, stream, n_agents)
-    agents = agents_of([best])[np.zeros(n_agents, np.int64)].living(newborn)
-    lives = live(
-        problem, agents, keys(stream, 0, n_agents), settings.coevolution.generations, settings.learning
-    )
+    agents = agents_of([best])[np.zeros(n_agents, np.int64)]
+    streams = keys(fold(key, LIFETIMES), 0, n_agents)
+    lives = live(problem, agents, streams, settings.coevolution.generations, settings.learning)
     return interval(lives.returns.mean(axis=1))

@@ -22,6 +22,8 @@ class Breeding:
     elites: int
     crossover: float
     """p_c, the probability that a cell comes from the first parent."""
+    children: int
+    """Of a pair of parents: 1, or 2 with complementary masks."""
     hard_mutation: float
     """p_hard, of a child."""
     soft_mutation: float
@@ -35,16 +37,18 @@ class Coevolution:
     generations: int
     population: int
     agents: int
+    pairing: Literal["balanced", "random", "proportional"]
     tournament: int
     elites: int
     crossover: float
+    children: int
     hard_mutation: NDArray[np.float64]
     soft_mutation: NDArray[np.float64]
 
     def breeding(self, generation: int) -> Breeding:
         """The genetic operators' settings in a generation, which counts from 1."""
         rates = float(self.hard_mutation[generation - 1]), float(self.soft_mutation[generation - 1])
-        return Breeding(self.tournament, self.elites, self.crossover, *rates)
+        return Breeding(self.tournament, self.elites, self.crossover, self.children, *rates)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,6 +63,9 @@ class Learning:
     """K of (14)."""
     rate: NDArray[np.float64]
     """α of (13), at least (lifetime,)."""
+    exploration: NDArray[np.float64]
+    """ε of an episode: the probability of a random structure; not used in the last ones."""
+    estimate: Literal["joint", "counters"]
     search: Literal["sampled", "exact"]
     candidates: int
     """Random structures that compete with the present one."""
@@ -96,22 +103,26 @@ def settings_of(meaning: Meaning) -> Settings:
     return Settings(
         design.sharing,
         Coevolution(
-            evolved.generations,
-            evolved.population,
-            evolved.agents,
-            evolved.tournament,
-            min(evolved.elites, evolved.population),
-            evolved.crossover,
-            np.array(rates.hard_mutation),
-            np.array(rates.soft_mutation),
+            generations=evolved.generations,
+            population=evolved.population,
+            agents=evolved.agents,
+            pairing=evolved.pairing,
+            tournament=evolved.tournament,
+            elites=min(evolved.elites, evolved.population),
+            crossover=evolved.crossover,
+            children=evolved.children,
+            hard_mutation=np.array(rates.hard_mutation),
+            soft_mutation=np.array(rates.soft_mutation),
         ),
         Learning(
-            learned,
-            lifetime,
-            min(learning.last, lifetime),
-            np.array(rates.learning),
-            learning.search,
-            learning.candidates,
+            learned=learned,
+            lifetime=lifetime,
+            last=min(learning.last, lifetime),
+            rate=np.array(rates.learning),
+            exploration=np.array(rates.exploration),
+            estimate=learning.estimate,
+            search=learning.search,
+            candidates=learning.candidates,
         ),
         Enculturation(culture.size, culture.rate, culture.scaled) if learned and culture != "none" else None,
         design.answer,

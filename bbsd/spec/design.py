@@ -22,10 +22,19 @@ class Coevolution(Part):
     generations: Whole = Field(50, ge=1, le=100_000, description="Generations of a run.")
     population: Whole = Field(20, ge=1, le=100_000, description="Individuals in each behavior's pool.")
     agents: Whole = Field(200, ge=1, le=1_000_000, description="Agents put together in each generation.")
+    pairing: Literal["balanced", "random", "proportional"] = Field(
+        "balanced",
+        description="Which individuals meet: all equally often, at random, or by fitness, "
+        "where a child's is its parents' mean.",
+    )
     tournament: Whole = Field(3, ge=1, le=1000, description="Individuals that compete to be a parent.")
     elites: Whole = Field(1, ge=0, description="Best individuals copied unchanged into the next generation.")
     crossover: float = Field(
         0.5, ge=0, le=1, description="Probability p_c that a cell comes from the first parent (19)."
+    )
+    children: Literal[1, 2] = Field(
+        1,
+        description="Children of a pair of parents: by the mask X of (19), and a second one by its complement.",
     )
     hard_mutation: ExpressionText = Field(
         _default(HARD_MUTATION),
@@ -53,6 +62,15 @@ class Learning(Part):
     )
     rate: ExpressionText = Field(
         _default("0.1 * 0.99 ** episode"), description="Learning rate of (13); may use episode, episodes."
+    )
+    estimate: Literal["joint", "counters"] = Field(
+        "joint",
+        description="What is learned of a behavior in a layer: Ṽ by (13), or V by (11) and counted probabilities.",
+    )
+    exploration: ExpressionText = Field(
+        _default("0"),
+        description="Probability of a random structure in an episode, never in the last ones; "
+        "may use episode, episodes.",
     )
     search: Literal["sampled", "exact"] = Field(
         "sampled",

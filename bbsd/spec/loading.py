@@ -83,16 +83,18 @@ def _diagnoses(
     told: Iterable[Told], document: Document, data: Data, overrides: Sequence[Override]
 ) -> list[Diagnosis]:
     """All mistakes in the order of the text; what YAML itself already stumbled over is said once."""
-    stumbled = {(each.place.line, each.place.column) for each in document.diagnoses}
-    found = [
-        Diagnosis(
-            mistake.code, mistake.message, _place((path, mistake), document, data, overrides), mistake.advice
-        )
-        for path, mistake in told
-        if not (mistake.code == "BB021" and _has_merged(document))
-    ]
-    fresh = [each for each in found if (each.place.line, each.place.column) not in stumbled]
-    return sorted(dict.fromkeys([*document.diagnoses, *fresh]), key=lambda each: each.place)
+    stumbled = {_start(each.place) for each in document.diagnoses}
+    found = [*document.diagnoses]
+    for path, mistake in told:
+        place = _place((path, mistake), document, data, overrides)
+        places = {_start(place), _start(document.place(existing(path, data)))}
+        if stumbled.isdisjoint(places) and not (mistake.code == "BB021" and _has_merged(document)):
+            found.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice))
+    return sorted(dict.fromkeys(found), key=lambda each: each.place)
+
+
+def _start(place: Place) -> tuple[int, int]:
+    return place.line, place.column
 
 
 def _has_merged(document: Document) -> bool:

@@ -11,6 +11,7 @@ from bbsd.spec.base import Block, Part
 from bbsd.spec.design import Design
 from bbsd.spec.written import (
     CellText,
+    DefinitionText,
     Expression,
     ExpressionText,
     NameText,
@@ -68,7 +69,7 @@ class Environment(Part):
     state: Block[ValueNameText, ExpressionText] = Field(
         {}, description="Values each robot has: name and starting value."
     )
-    definitions: Block[str, ExpressionText] = Field(
+    definitions: Block[DefinitionText, ExpressionText] = Field(
         {}, description="Names for expressions, with or without parameters."
     )
     dynamics: Block[ValueNameText, ExpressionText] = Field(

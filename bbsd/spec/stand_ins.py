@@ -6,7 +6,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, cast
 
-from bbsd.spec.validation import child, path_of, validate
+from bbsd.spec.validation import child, names_lost, path_of, validate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -75,7 +75,7 @@ def rest_of(data: Data, errors: Sequence[ErrorDetails]) -> Rest | None:
         mended = deepcopy(data)
         for error in errors:
             path = _blamed(error, data)
-            broken |= _names_lost(path, error)
+            broken |= names_lost(error) | _names_below(error)
             dependent |= _dependent(path)
             try:
                 _mend(mended, path, error["type"])
@@ -93,13 +93,10 @@ def _blamed(error: ErrorDetails, data: Data) -> Path:
     return (*path, error["loc"][-1]) if error["type"] == "missing" else path
 
 
-def _names_lost(path: Path, error: ErrorDetails) -> set[str]:
-    """The names that a key would have been, or that stood below a key that was not expected."""
-    if error["type"] == "bad_name":
-        return {str(path[-1]), str(path[-1]).lower()}
-    if error["type"] == "extra_forbidden" and isinstance(error["input"], dict):
-        return {str(name) for name in error["input"]}
-    return set()
+def _names_below(error: ErrorDetails) -> set[str]:
+    """The names that stood below a key that was not expected."""
+    below = error["input"] if error["type"] == "extra_forbidden" else ()
+    return {str(name) for name in below} if isinstance(below, dict | list) else set()
 
 
 def _dependent(path: Path) -> set[str]:
@@ -109,6 +106,8 @@ def _dependent(path: Path) -> set[str]:
             return {"BB057", "BB059"}
         case ("behaviors",):
             return {"BB042"}
+        case ("behaviors", _, "inputs"):
+            return {"BB034"}
         case ("design", *_):
             return {"BB042", "BB043"}
     return set()

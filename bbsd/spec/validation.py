@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.mistakes import KEY, Mistake
+from bbsd.expression.vocabulary import RESERVED
 from bbsd.spec.keys import field_at, fields_at
 from bbsd.spec.models import Spec
 from bbsd.spec.written import kind_of
@@ -41,11 +42,11 @@ def validate(data: Data) -> tuple[Spec | None, list[ErrorDetails]]:
 def form_mistakes(errors: Sequence[ErrorDetails], data: Data) -> list[Told]:
     """The mistakes that errors stand for, each wrong thing once."""
     guessed = {_guess(error, errors) for error in errors if error["type"] == "extra_forbidden"}
-    misnamed = misnamed_by(errors)
+    unreadable = frozenset().union(*map(names_lost, errors)) - RESERVED
     return [
         (path_of(error, data), _mistake(error, data))
         for error in errors
-        if not (error["type"] == "missing" and error["loc"] in guessed) and not _uses(error, misnamed)
+        if not (error["type"] == "missing" and error["loc"] in guessed) and not _uses(error, unreadable)
     ]
 
 
@@ -81,9 +82,10 @@ def child(data: Data, segment: str | int) -> Data:
     return None
 
 
-def misnamed_by(errors: Sequence[ErrorDetails]) -> frozenset[str]:
-    """The keys that cannot be the names that they were meant for."""
-    return frozenset(str(error["input"]) for error in errors if error["type"] == "bad_name")
+def names_lost(error: ErrorDetails) -> frozenset[str]:
+    """The names that a wrong key would have made, as they may be used elsewhere."""
+    words = re.findall(r"\w+", str(error["input"])) if error["type"] == "bad_name" else ()
+    return frozenset(words) | {word.lower() for word in words}
 
 
 def _guess(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bbsd.expression.tree import Expr
+
+SIGNATURE = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\)\s*)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,13 +107,33 @@ def value_name(value: str) -> str:
     return _checked_name(value, is_value_name)
 
 
+def signature(key: str) -> tuple[str, ...]:
+    """The name of a definition and of its parameters; nothing where its key is not written as one."""
+    match = SIGNATURE.fullmatch(key)
+    if match is None:
+        return ()
+    parameters = match["parameters"].split(",") if match["parameters"] else []
+    return (match["name"], *(name.strip() for name in parameters))
+
+
+def definition_key(value: str) -> str:
+    """A name, or a name with its parameters."""
+    names = signature(value)
+    if names and all(map(is_value_name, names)) and len(set(names)) == len(names):
+        return value
+    raise _bad_name(value, "cannot be a definition's name; write name or name(a, b), in small letters")
+
+
 def _checked_name(value: str, is_right: Callable[[str], bool]) -> str:
     if is_right(value):
         return value
-    reason = "is a word of the language and cannot be a name"
     if not NAME.match(value):
-        reason = "cannot be a name; names are small letters, digits and _, a letter first"
-    raise PydanticCustomError("bad_name", '"{name}" {reason}', {"name": value, "reason": reason})
+        raise _bad_name(value, "cannot be a name; names are small letters, digits and _, a letter first")
+    raise _bad_name(value, "is a word of the language and cannot be a name")
+
+
+def _bad_name(value: str, reason: str) -> PydanticCustomError:
+    return PydanticCustomError("bad_name", '"{name}" {reason}', {"name": value, "reason": reason})
 
 
 def cell(value: object) -> str:
@@ -139,6 +162,9 @@ NameText = Annotated[str, AfterValidator(name)]
 
 ValueNameText = Annotated[str, AfterValidator(value_name)]
 """A name that expressions can use."""
+
+DefinitionText = Annotated[str, AfterValidator(definition_key)]
+"""A definition's name, perhaps with parameters."""
 
 CellText = Annotated[str, BeforeValidator(cell)]
 """A cell's label."""

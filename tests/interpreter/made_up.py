@@ -37,6 +37,7 @@ def specs(draw: Draw) -> Block:
     definitions, own_defined, all_defined = some_definitions(draw, own, everything(team, own))
     own = replace(own, definitions=own_defined)
     every = replace(everything(team, own), definitions=own_defined + all_defined)
+    every = replace(every, numbers_of_robots=(*every.numbers_of_robots, "mine"))
     sensors, senses = some_sensors(draw, replace(every, draws=True, before=True), own)
     rewarded = everything(every, senses.reach)
     return {

@@ -82,8 +82,8 @@ def matches(cell: tuple[int, ...], when: dict[str, list[str]], cells: Cells) -> 
 
 
 def structure(draw: Draw, behaviors: list[str]) -> dict[str, Any]:
-    """No structure, or layers that are given or open, as many as there are behaviors or fewer."""
+    """Some open layers, or layers that are given or open, as many as there are behaviors or fewer."""
     if draw(st.booleans()):
-        return {}
+        return {"design": {"layers": draw(st.integers(1, len(behaviors)))}}
     layers = draw(st.permutations(behaviors))[: draw(st.integers(1, len(behaviors)))]
     return {"structure": [draw(st.sampled_from([layer, layer, "open"])) for layer in layers]}

@@ -70,8 +70,8 @@ def mean(
 
 def _meaning(spec: Spec, seed: int, broken: frozenset[str], findings: Findings) -> Meaning | None:
     graph = Graph()
-    defined, misnamed = definitions(spec.environment.definitions, findings)
-    silent = {name: Unusable() for name in broken} | misnamed
+    defined = definitions(spec.environment.definitions, findings)
+    silent = {name: Unusable() for name in broken}
     silent |= twice(blocks(spec, defined), findings) | unordered(spec, defined, findings)
     constants = read_constants(spec.constants, seed_key(seed), graph, findings, frozenset(silent))
     meant = episode(Names(spec, graph, findings, constants, defined, silent))

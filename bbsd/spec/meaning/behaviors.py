@@ -12,7 +12,7 @@ from bbsd.expression.graph import Kind, Node
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name
 from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
-from bbsd.spec.meaning.rules import Table, decisions, table
+from bbsd.spec.meaning.rules import Table, table
 from bbsd.spec.written import Expression
 
 if TYPE_CHECKING:
@@ -57,18 +57,16 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
     if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
         names.findings.tell((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
     per_robot = [_inputs(written, decision, (*path, "inputs"), robot) for robot in names.robots]
-    understood = [inputs for inputs in per_robot if inputs is not None]
-    if len(understood) < len(per_robot):
-        decisions(written.rules, list(actions), (*path, "rules"), names.findings, names.unusable)
-        return None
-    inputs = {key: found.cells for key, found in understood[0].items()}
+    inputs = {key: found.cells for key, found in per_robot[0].items()}
     if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
-        advice = "cut the inputs more coarsely"
-        message = f"this table would have more than {MAX_CELLS} cells"
+        message, advice = f"this table would have more than {MAX_CELLS} cells", "cut the inputs more coarsely"
         names.findings.tell((*path, "inputs"), "BB039", message, KEY, advice)
         return None
-    cells = tuple(tuple(found.index for found in robot.values()) for robot in understood)
-    given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings, names.unusable)
+    silent = {*names.unusable, *(set(written.inputs) - inputs.keys())}
+    given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings, silent)
+    if any(len(found) < len(written.inputs) for found in per_robot):
+        return None
+    cells = tuple(tuple(found.index for found in robot.values()) for robot in per_robot)
     return Module(name, inputs, cells, excited, actions, given)
 
 
@@ -112,8 +110,8 @@ def _not_state(target: str, names: Names) -> str:
     return f'"{target}" is not state{did_you_mean(target, environment.state)}'
 
 
-def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict[str, Partition] | None:
-    """A robot's partitions by input; None after a mistake."""
+def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict[str, Partition]:
+    """A robot's partitions by input, without those that could not be understood."""
     if isinstance(written.inputs, dict):
         found = {name: _own(cut, decision, (*path, name), robot) for name, cut in written.inputs.items()}
     else:
@@ -123,8 +121,7 @@ def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict
         for place, name in enumerate(written.inputs):
             if name in written.inputs[:place]:
                 decision.names.findings.tell((*path, place), "BB040", f"{name} is listed twice")
-    understood = {name: part for name, part in found.items() if part is not None}
-    return understood if len(understood) == len(written.inputs) else None
+    return {name: part for name, part in found.items() if part is not None}
 
 
 def _own(cut: PartitionText, decision: Moment, path: Path, robot: int) -> Partition | None:

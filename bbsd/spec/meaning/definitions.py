@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from bbsd.expression.mistakes import KEY
@@ -11,7 +10,7 @@ from bbsd.expression.tree import frames, names_used
 from bbsd.spec.meaning.constants import expressions_in
 from bbsd.spec.meaning.order import among_themselves, circles, heights, names_in
 from bbsd.spec.models import OTHERWISE, Spec
-from bbsd.spec.written import Expression, is_value_name
+from bbsd.spec.written import Expression, signature
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
@@ -21,35 +20,17 @@ LINK = 8
 MAX_HEIGHT = 600
 """Frames for a chain of names; Python has 1000."""
 
-KEY_TEXT = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\))?\s*\Z")
 
-
-def definitions(
-    written: Mapping[str, Expression], findings: Findings
-) -> tuple[dict[str, Definition], dict[str, Unusable]]:
-    """Each definition by its name, and the names of those whose key cannot be read, which is told."""
+def definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
+    """Each definition by its name; of two by one name the second is told of and passed over."""
     found: dict[str, Definition] = {}
-    unusable: dict[str, Unusable] = {}
     for key, expression in written.items():
         path: Path = ("environment", "definitions", key)
-        match = KEY_TEXT.match(key)
-        names = _names(match) if match else []
-        if names and all(is_value_name(name) for name in names) and len(set(names)) == len(names):
-            if names[0] in found:
-                _tell_twice(names[0], path, found[names[0]].path, findings)
-            found.setdefault(names[0], Definition(tuple(names[1:]), expression.tree, path))
-        else:
-            advice = "write name or name(a, b), in small letters"
-            findings.tell(path, "BB024", f'"{key}" cannot be a definition\'s name', KEY, advice)
-            unusable[names[0] if names else key] = Unusable()
-    return found, unusable
-
-
-def _names(match: re.Match[str]) -> list[str]:
-    parameters = match["parameters"]
-    return (
-        [match["name"], *(name.strip() for name in parameters.split(","))] if parameters else [match["name"]]
-    )
+        name, *parameters = signature(key)
+        if name in found:
+            _tell_twice(name, path, found[name].path, findings)
+        found.setdefault(name, Definition(tuple(parameters), expression.tree, path))
+    return found
 
 
 def blocks(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Path]]:

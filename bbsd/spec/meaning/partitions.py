@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Node, value_of
+from bbsd.expression.mistakes import KEY
 from bbsd.expression.text import render
 from bbsd.expression.tree import Call, Name, Span
 from bbsd.spec.meaning.coverage import covers_everything
@@ -126,7 +127,7 @@ def _named(written: dict[str, Expression], scope: Scope, path: Path, robot: int 
     ]
     whole = scope.at(path, robot)
     if len(labels) < 2:
-        whole.mistake("BB032", "a partition needs two cells or more", Span(0, 1))
+        whole.mistake("BB032", "a partition needs two cells or more", KEY)
         return None
     if any(node.kind is Kind.UNKNOWN for node in nodes):
         return None

@@ -23,6 +23,7 @@ class Rates:
     hard_mutation: tuple[float, ...]
     soft_mutation: tuple[float, ...]
     learning: tuple[float, ...]
+    exploration: tuple[float, ...]
 
 
 def rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, Binding]) -> Rates:
@@ -43,11 +44,13 @@ def rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, 
     soft = _node(written.soft_mutation, scope, ("design", "coevolution", "soft_mutation"))
     scope = Scope(graph, {**shared, "episode": Shared(episode)}, findings)
     rate = _node(spec.design.learning.rate, scope, ("design", "learning", "rate"))
+    exploration = _node(spec.design.learning.exploration, scope, ("design", "learning", "exploration"))
     every = range(1, generations + 1)
     return Rates(
         _probabilities(hard, every, findings, ("design", "coevolution", "hard_mutation"), "generation"),
         _probabilities(soft, every, findings, ("design", "coevolution", "soft_mutation"), "generation"),
         _probabilities(rate, counted, findings, ("design", "learning", "rate"), "episode"),
+        _probabilities(exploration, counted, findings, ("design", "learning", "exploration"), "episode"),
     )
 
 

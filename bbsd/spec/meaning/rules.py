@@ -47,7 +47,9 @@ def table(
 
     Nothing is said about the `unusable` names, whose own mistakes were told before.
     """
-    decided = decisions(rules, actions, path, findings, unusable)
+    decided = [
+        _decision(rule, actions, (*path, place), findings, unusable) for place, rule in enumerate(rules or ())
+    ]
     sizes = [len(cells) for cells in inputs.values()]
     given, undecided, looked_at = bytearray([OPEN_CELL]) * prod(sizes), bytearray([1]) * prod(sizes), 0
     for place, (rule, decision) in enumerate(zip(rules or (), decided, strict=True)):
@@ -77,22 +79,10 @@ def _places(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> list[int]
     return places
 
 
-def decisions(
-    rules: Sequence[Rule] | None,
-    actions: Sequence[str],
-    path: Path,
-    findings: Findings,
-    unusable: Collection[str] = (),
-) -> list[int | None]:
-    """What each rule decides, as a cell holds it; None where that is no action."""
-    return [
-        _decision(rule, actions, (*path, place), findings, unusable) for place, rule in enumerate(rules or ())
-    ]
-
-
 def _decision(
     rule: Rule, actions: Sequence[str], path: Path, findings: Findings, unusable: Collection[str]
 ) -> int | None:
+    """What a cell holds where the rule decides; None where that is no action."""
     key, word = ("otherwise", rule.otherwise) if isinstance(rule, Otherwise) else ("do", rule.do)
     if word in (NO_ACTION_TEXT, OPEN):
         return NO_ACTION if word == NO_ACTION_TEXT else OPEN_CELL

@@ -61,7 +61,9 @@ def test_one_behavior_alone_decides():
 
 
 def test_each_robot_is_controlled_by_what_it_sees():
-    problem = choosing(("own", "inputs: {at: 'values(at, 0, 2)'}, actions: {a: {x: 1}, b: {x: 100}}"), robots=3)
+    problem = choosing(
+        ("own", "inputs: {at: 'values(at, 0, 2)'}, actions: {a: {x: 1}, b: {x: 100}}"), robots=3
+    )
     assert control_of(problem, [[1, 0, 2]], [0]) == ((1 + 0 + 100) / 3, [2, 1])
 
 

@@ -69,7 +69,11 @@ def test_lifting_s_tilt_is_computed_once():
 
 
 def test_merging_changes_no_bit():
-    for text in (RICH, shipped("object_lifting"), THREE.format(x=0, y="chance(0.5)", next_x="x + seen", next_y="not y")):
+    for text in (
+        RICH,
+        shipped("object_lifting"),
+        THREE.format(x=0, y="chance(0.5)", next_x="x + seen", next_y="not y"),
+    ):
         meaning = meaning_of(text)
         with_merging = compile_meaning(meaning, compiled=False)
         without = Problem(

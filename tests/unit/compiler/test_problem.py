@@ -90,7 +90,9 @@ def test_constants_that_a_seed_draws_are_no_other_kernel():
     for seed in (1, 2):
         problem = problem_of(shipped("abstract"), seed=seed)
         sources.append(module_source(problem.meaning, problem.tables, 40, (Detail.CREDIT,)))
-        assert problem.meaning.constants.vector(1) != problem_of(shipped("abstract")).meaning.constants.vector(1)
+        assert problem.meaning.constants.vector(1) != problem_of(
+            shipped("abstract")
+        ).meaning.constants.vector(1)
     assert sources[0] == sources[1]
 
 

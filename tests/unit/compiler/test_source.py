@@ -63,7 +63,12 @@ def test_a_module_is_python_that_lints_itself(text):
     """Everything imported is used, and everything used is imported or its own."""
     source = source_of(problem_of(text), Detail.CREDIT, Detail.TERMS, Detail.TRACE)
     compile(source, "rollout.py", "exec")
-    imported = [name for line in source.splitlines() if line.startswith("from ") for name in line.split("import ")[1].split(", ")]
+    imported = [
+        name
+        for line in source.splitlines()
+        if line.startswith("from ")
+        for name in line.split("import ")[1].split(", ")
+    ]
     assert len(set(imported)) == len(imported)
     assert [name for name in imported if source.count(f"{name}(") == 0] == []
 

@@ -29,7 +29,9 @@ def test_words_hold_every_cell(n_actions):
     pool = np.random.default_rng(0).integers(0, n_actions + 1, (5, layout.n_cells), dtype=np.uint8)
     pool[0] = n_actions  # every bit of the word may be set, that of the sign too
     [words] = words_of([layout], [pool])
-    read = [[int(word) >> cell * layout.bits & layout.mask for cell in range(layout.n_cells)] for word in words]
+    read = [
+        [int(word) >> cell * layout.bits & layout.mask for cell in range(layout.n_cells)] for word in words
+    ]
     np.testing.assert_array_equal(read, pool)
 
 

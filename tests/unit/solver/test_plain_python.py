@@ -44,7 +44,7 @@ def pools_bred(key):
     fitness = np.array([0.0, 2.0, 1.0, -np.inf, 2.0, 1.0])
     return [
         pool,
-        next_pool(key, pool, fitness, 3, given_cells, Breeding(hard_mutation=0.4, soft_mutation=0.3)),
+        next_pool(key, pool, fitness, 3, given_cells, Breeding(3, 1, 0.5, 0.4, 0.3)),
     ]
 
 

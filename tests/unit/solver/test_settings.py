@@ -1,53 +1,86 @@
 import numpy as np
 import pytest
 
-from bbsd.solver.settings import Breeding, Coevolution, Enculturation, Learning, Settings
+from bbsd.solver.settings import Breeding, Enculturation, settings_of
+from tests.unit.architecture.designs import meaning_of, shipped
+
+SMALL = """
+bbsd: 1
+name: small
+environment: {steps: 1, state: {x: 0}}
+behaviors:
+  a: {actions: {do: {x: 1}}}
+  b: {actions: {do: {x: 2}}}
+reward: {x: x}
+"""
+
+
+def settings(design="", structure=""):
+    return settings_of(meaning_of(f"{SMALL}{structure}\ndesign: {{{design}}}\n"))
 
 
 def test_mutation_follows_table_1():
-    defaults = Coevolution()
-    assert defaults.hard_mutation[0] == 0.01  # log2(1 + 1) = 1
-    assert defaults.hard_mutation[2] == 0.005  # log2(3 + 1) = 2
-    assert defaults.hard_mutation[39] == pytest.approx(0.01 / 5.357552, rel=1e-6)  # log2(41)
-    assert np.all(defaults.hard_mutation[40:] == 0)  # from generation 41
-    np.testing.assert_array_equal(defaults.soft_mutation, 2 * defaults.hard_mutation)
+    evolved = settings().coevolution
+    assert evolved.hard_mutation[0] == 0.01  # log2(1 + 1) = 1
+    assert evolved.hard_mutation[2] == 0.005  # log2(3 + 1) = 2
+    assert evolved.hard_mutation[39] == pytest.approx(0.01 / 5.357552, rel=1e-6)  # log2(41)
+    assert np.all(evolved.hard_mutation[40:] == 0)  # from generation 41
+    np.testing.assert_array_equal(evolved.soft_mutation, 2 * evolved.hard_mutation)
+
+
+def test_mutation_of_the_abstract_problem_ends_at_generation_180():
+    evolved = settings_of(meaning_of(shipped("abstract"))).coevolution
+    assert len(evolved.hard_mutation) == 200
+    assert evolved.hard_mutation[178] > 0
+    assert np.all(evolved.hard_mutation[179:] == 0)
 
 
 def test_the_learning_rate_follows_table_1():
-    rate = Learning().rate
+    rate = settings().learning.rate
     assert rate[0] == pytest.approx(0.099)  # 0.1 * 0.99
     assert rate[1] == pytest.approx(0.09801)  # 0.1 * 0.99 * 0.99
 
 
 def test_a_generation_s_genetic_settings_count_generations_from_1():
-    assert Coevolution().breeding(3) == Breeding(3, 1, 0.5, 0.005, 0.01)
-
-
-def test_a_lifetime_is_shorter_where_no_structure_is_learned():
-    assert Learning().lifetime(learned=True) == 25
-    assert Learning().lifetime(learned=False) == 5
+    assert settings().coevolution.breeding(3) == Breeding(3, 1, 0.5, 0.005, 0.01)
 
 
 def test_without_a_word_a_run_is_the_paper_s_lifting_experiment():
-    settings = Settings()
-    assert (settings.sharing, settings.culture, settings.layers) == ("uniform", None, None)
-    coevolution = settings.coevolution
-    assert (coevolution.generations, coevolution.population, coevolution.agents) == (50, 20, 200)
-    assert Enculturation() == Enculturation(size=5, rate=0.3, scaled=0.9)
+    found = settings()
+    assert (found.sharing, found.culture) == ("uniform", Enculturation(size=5, rate=0.3, scaled=0.9))
+    evolved, learning = found.coevolution, found.learning
+    assert (evolved.generations, evolved.population, evolved.agents) == (50, 20, 200)
+    assert (evolved.tournament, evolved.elites, evolved.crossover) == (3, 1, 0.5)
+    assert (learning.learned, learning.lifetime, learning.last) == (True, 25, 5)
+    assert (learning.search, learning.candidates) == ("sampled", 20)
 
 
-@pytest.mark.parametrize("schedule", ["hard_mutation", "soft_mutation"])
-def test_a_schedule_without_a_value_for_each_generation_is_refused(schedule):
-    with pytest.raises(ValueError, match=f"{schedule} must hold one value for each of 50 generations"):
-        Coevolution(**{schedule: np.zeros(49)})
+def test_where_the_structure_is_given_a_lifetime_is_its_last_episodes():
+    found = settings("learning: {episodes: 25, last: 7}", "structure: [a, b]")
+    assert (found.learning.learned, found.learning.lifetime, found.learning.last) == (False, 7, 7)
+    assert found.culture is None
 
 
-def test_a_learning_rate_without_a_value_for_each_episode_is_refused():
-    with pytest.raises(ValueError, match="rate must hold one value for each of 100 episodes"):
-        Learning(episodes=100)
+def test_a_longer_last_than_a_lifetime_is_all_of_it():
+    found = settings("learning: {episodes: 3, last: 7}")
+    assert (found.learning.lifetime, found.learning.last) == (3, 3)
 
 
-@pytest.mark.parametrize("last", [0, 26])
-def test_the_last_episodes_are_within_the_lifetime(last):
-    with pytest.raises(ValueError, match="last must be from 1 to 25"):
-        Learning(last=last)
+@pytest.mark.parametrize("structure", ["", "structure: [a, b]", "structure: [open]", "structure: [a]"])
+def test_there_is_a_rate_for_every_episode(structure):
+    for design in ("learning: {episodes: 3, last: 7}", "learning: {episodes: 7, last: 3}"):
+        learning = settings(design, structure).learning
+        assert len(learning.rate) >= learning.lifetime
+
+
+def test_half_a_structure_is_learned_where_there_is_a_choice():
+    assert settings(structure="structure: [open]").learning.learned  # by a or b
+    assert not settings(structure="structure: [a, open]").learning.learned  # only b is left
+
+
+def test_culture_may_be_none():
+    assert settings("culture: none").culture is None
+
+
+def test_elites_are_no_more_than_the_population():
+    assert settings("coevolution: {population: 4, elites: 9}").coevolution.elites == 4

@@ -1,0 +1,195 @@
+"""The language as a JSON Schema (draft 7), from the spec's models: editors complete, explain and check by it.
+
+It knows the form of a spec. What expressions and names mean only `bbsd check` can tell.
+"""
+
+from __future__ import annotations
+
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get_args, get_origin
+
+from annotated_types import Ge, Le, MaxLen, MinLen
+
+from bbsd.expression.vocabulary import RESERVED, UNREADABLE
+from bbsd.spec import models, written
+from bbsd.spec.base import FREE, Part
+from bbsd.spec.written import Expression
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from pydantic.fields import FieldInfo
+
+Schema: TypeAlias = dict[str, Any]
+
+SCHEMA_FILE = "bbsd.schema.json"
+"""What the schema is called where it lies in a file."""
+
+NAME_ADVICE = "names are small letters, digits and _, a letter first, and no word of the language"
+
+
+def language_schema() -> Schema:
+    """Return the schema of a spec: its blocks inside each other, a description and a default for each key."""
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "$id": "urn:bbsd:language:1",
+        "title": "A bbsd spec",
+        **_part(models.Spec),
+        "definitions": _definitions(),
+    }
+
+
+def _ref(definition: str) -> Schema:
+    return {"$ref": f"#/definitions/{definition}"}
+
+
+def _definitions() -> Schema:
+    """Return what stands in many places of a spec."""
+    scalar = {"type": ["string", "number", "boolean"]}
+    return {
+        "expression": {"description": "An expression.", **scalar},
+        "constant": {
+            "description": "An expression, or a nested list of numbers.",
+            "anyOf": [_ref("expression"), {"type": "array", "items": _ref("constant")}],
+        },
+        "cell": {"description": "A cell's name.", **scalar},
+        "cells": {
+            "description": "A cell, or a list of cells.",
+            "anyOf": [_ref("cell"), {"type": "array", "items": _ref("cell"), "minItems": 1}],
+        },
+        "decision": _word_or_name("An action, no action, or open.", models.NO_ACTION_TEXT, models.OPEN),
+        "layer": _word_or_name("A behavior, or open.", models.OPEN),
+        "name": _name(RESERVED),
+        "value_name": _name(RESERVED | UNREADABLE),
+        "definition": _name(RESERVED | UNREADABLE, r"(?:\(.*\))?", r"(?:\(|$)"),
+    }
+
+
+def _word_or_name(description: str, *words: str) -> Schema:
+    """Return a text for which editors propose some words."""
+    return {"description": description, "anyOf": [{"enum": [*words]}, {"type": "string"}]}
+
+
+def _name(taken: Iterable[str], rest: str = "", end: str = "$") -> Schema:
+    pattern = f"^(?!(?:{'|'.join(sorted(taken))}){end})[a-z][a-z0-9_]*{rest}$|^{FREE}"
+    return {"type": "string", "pattern": pattern, "patternErrorMessage": NAME_ADVICE}
+
+
+def _part(part: type[Part]) -> Schema:
+    """Return a block with the language's own keys."""
+    fields = part.model_fields
+    return {
+        "description": " ".join((part.__doc__ or "").split()),
+        "type": "object",
+        "properties": {key: _field(part, key, field) for key, field in fields.items()},
+        "patternProperties": {f"^{FREE}": True},
+        "additionalProperties": False,
+        "required": [key for key, field in fields.items() if field.is_required()],
+    }
+
+
+def _field(part: type[Part], key: str, field: FieldInfo) -> Schema:
+    schema = _ruled(READ_OTHERWISE.get((part, key)) or _kind(field.annotation), field.metadata)
+    if not field.is_required():
+        schema = {**_or_nothing(schema), **_default(field.default)}
+    if "$ref" in schema:  # beside which draft 7 knows no other key
+        schema = {"allOf": [{"$ref": schema.pop("$ref")}], **schema}
+    return {**schema, "description": field.description or ""}
+
+
+def _or_nothing(schema: Schema) -> Schema:
+    """Return the schema of a key under which nothing need be written if it holds a block."""
+    if "anyOf" in schema:
+        first, *others = schema["anyOf"]
+        return {**schema, "anyOf": [_or_nothing(first), *others]}
+    if schema.get("type") in ("object", "array"):
+        return {**schema, "type": [schema["type"], "null"]}
+    return schema
+
+
+def _default(value: object) -> Schema:
+    match value:
+        case Expression(text=text):
+            return {"default": text}
+        case int() | float() | str() if value != "":
+            return {"default": value}
+    return {}
+
+
+def _ruled(schema: Schema, rules: Iterable[object]) -> Schema:
+    """Return a schema with the bounds that a model sets."""
+    for rule in rules:
+        match rule:
+            case Ge(low):
+                schema = {**schema, "minimum": low}
+            case Le(high):
+                schema = {**schema, "maximum": high}
+            case MaxLen(longest):
+                schema = {**schema, "maxLength": longest}
+            case MinLen(shortest) if schema["type"] == "string":
+                schema = {**schema, "minLength": shortest}
+            case MinLen(fewest):
+                schema = {**schema, "type": "object", "minProperties": fewest}
+    return schema
+
+
+def _kind(annotation: Any) -> Schema:  # noqa: ANN401 - a type, of any kind
+    """Return what may stand where a model has this type."""
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        return _read_by(arguments[1:], READERS) or _kind(arguments[0])
+    if origin is Literal:
+        return {"enum": [*arguments]}
+    if origin is dict:
+        return _mapping(*arguments)
+    if origin is list:
+        return {"type": "array", "items": _kind(arguments[0])}
+    if origin in (Union, UnionType):
+        return {"anyOf": [_kind(each) for each in arguments]}
+    if isinstance(annotation, type) and issubclass(annotation, Part):
+        return _part(annotation)
+    return KINDS[annotation]
+
+
+def _mapping(key: Any, value: Any) -> Schema:  # noqa: ANN401 - types, of any kind
+    """Return a mapping from names of the spec's own; nothing written is an empty one."""
+    name = _read_by(get_args(key)[1:], NAMES)
+    return {
+        "type": ["object", "null"],
+        **({"propertyNames": name} if name else {}),
+        "patternProperties": {f"^{FREE}": True},
+        "additionalProperties": _kind(value),
+    }
+
+
+def _read_by(validators: Iterable[object], readers: Mapping[object, Schema]) -> Schema | None:
+    """Return what the functions that read a value take."""
+    functions = (getattr(each, "func", None) for each in validators)
+    return next((readers[each] for each in functions if each in readers), None)
+
+
+KINDS: Mapping[object, Schema] = {
+    Any: _ref("constant"),
+    Expression: _ref("expression"),
+    float: {"type": "number"},
+    int: {"type": "integer"},
+    str: {"type": "string"},
+    NoneType: {"type": "null"},
+}
+READERS: Mapping[object, Schema] = {written.cell: _ref("cell")}
+NAMES: Mapping[object, Schema] = {
+    written.name: _ref("name"),
+    written.value_name: _ref("value_name"),
+    written.definition_key: _ref("definition"),
+}
+READ_OTHERWISE: Mapping[tuple[type[Part], str], Schema] = {
+    (models.When, "when"): {
+        "type": ["object", "null"],
+        "patternProperties": {f"^{FREE}": True},
+        "additionalProperties": _ref("cells"),
+    },
+    (models.When, "do"): _ref("decision"),
+    (models.Otherwise, "otherwise"): _ref("decision"),
+    (models.Spec, "structure"): {"type": ["array", "null"], "items": _ref("layer")},
+}
+"""Keys whose values are not what their type says: the model makes one of several ways to write them."""

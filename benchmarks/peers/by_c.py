@@ -1,0 +1,62 @@
+"""C compiled by gcc into a temporary folder."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from benchmarks.lifting import BEHAVIORS, Lived
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from benchmarks.lifting import Workload
+
+OPTIONS = ("-O3", "-march=native", "-ffp-contract=off", "-shared", "-fPIC")
+
+
+def prepare_scalar(workload: Workload) -> Callable[[], Lived]:
+    """One episode at a time with libm's arctangent."""
+    return _prepare("scalar.c", workload)
+
+
+def prepare_simd(workload: Workload) -> Callable[[], Lived]:
+    """Explicit vectors with bbsd's arctangent."""
+    return _prepare("simd.c", workload)
+
+
+def _prepare(source: str, workload: Workload) -> Callable[[], Lived]:
+    lift = _compiled(Path(__file__).with_name(source)).lift
+    returns, credit = np.empty(len(workload)), np.empty((len(workload), BEHAVIORS + 1))
+    arrays = (workload.heights, workload.tables, workload.structures, returns, credit)
+    arguments = [ctypes.c_int64(len(workload)), *(ctypes.c_void_p(array.ctypes.data) for array in arrays)]
+
+    def live() -> Lived:
+        lift(*arguments)
+        return Lived(returns, credit)
+
+    return live
+
+
+def _compiled(source: Path) -> ctypes.CDLL:
+    """Raises OSError where there is no gcc or the machine lacks what the source needs."""
+    compiler = shutil.which("gcc")
+    if compiler is None:
+        raise OSError("no gcc")
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder) / "lift.so"
+        done = subprocess.run(
+            [compiler, *OPTIONS, str(source), "-o", str(library), "-lm"],
+            check=False,
+            capture_output=True,
+            text=True,
+        )
+        if done.returncode:
+            raise OSError(f"gcc: {done.stderr.strip().splitlines()[-1]}")
+        return ctypes.CDLL(str(library))

@@ -1,0 +1,129 @@
+/* The lifting task with explicit vectors, a lane an agent, as many at a time as a vector holds; bbsd's arctangent. */
+#include <math.h>
+#include <string.h>
+#include "lanes.h"
+
+enum { STEPS = 300, ROBOTS = 3, BEHAVIORS = 5, CELLS = 6 };
+enum { PUSH_MORE, DO_NOT_GO_FAST, STOP_AT_GOAL, HURRY_UP, SLOW_DOWN, NOBODY };
+
+#define SPEED_STEP ALL(1)
+#define TOP_SPEED ALL(5)
+#define GOAL ALL(3)
+#define SMALL_TILT ALL(5)
+#define ZERO ALL(0)
+
+typedef struct {
+    Numbers height[ROBOTS], speed[ROBOTS], tilt, total, credit[BEHAVIORS + 1];
+    Words table[BEHAVIORS], priority[BEHAVIORS];
+} Lanes;
+
+/* bbsd/kernel/angles.py, operation by operation, for x >= 0. */
+static inline Numbers arctangent(Numbers x) {
+    Truths flat = AT_MOST(x, ALL(0.41421356237309503)), steep = BELOW(ALL(2.414213562373095), x);
+    Numbers above = PICK(flat, x, PICK(steep, ALL(-1), x - ALL(1)));
+    Numbers below = PICK(flat, ALL(1), PICK(steep, x, x + ALL(1)));
+    Numbers base = PICK(flat, ZERO, PICK(steep, ALL(1.5707963267948966), ALL(0.7853981633974483)));
+    Numbers rest = PICK(flat, ZERO, PICK(steep, ALL(6.123233995736766e-17), ALL(3.061616997868383e-17)));
+    Numbers t = above / below, z = t * t;
+    Numbers p = ALL(-0.05038975330045011) + z * (ALL(0.03805655938015656) + z * ALL(-0.017898809046130823));
+    p = ALL(-0.06663092950455685) + z * (ALL(0.05847812614151057) + z * p);
+    p = ALL(-0.09090897696109673) + z * (ALL(0.07692059182472918) + z * p);
+    p = ALL(-0.1428571428014781) + z * (ALL(0.1111111078117738) + z * p);
+    p = ALL(-0.333333333333332) + z * (ALL(0.1999999999995307) + z * p);
+    return base + (t + (t * (z * p) + rest));
+}
+
+static inline Numbers tilt_of(const Numbers *height) {
+    Numbers sideways = (height[2] - height[1]) / ALL(sqrt(3));
+    Numbers forward = (height[0] - (height[1] + height[2]) * ALL(0.5)) / ALL(1.5);
+    return arctangent(ROOT(sideways * sideways + forward * forward)) * ALL(57.29577951308232);
+}
+
+/* The highest priority among the activated behaviors; its lowest bits are the behavior's number and one. */
+static inline Words decide(const Lanes *lanes, int robot, Words tilted, Numbers lowest, Numbers highest) {
+    Numbers height = lanes->height[robot], speed = lanes->speed[robot];
+    Words place = WORD(EQUAL(height, lowest), WHOLE(0), WORD(EQUAL(height, highest), WHOLE(2), WHOLE(4)));
+    Words cell = PLUS(place, tilted), pace = TRUNCATED(GREATER(LESSER(speed, ALL(5)), ZERO));
+    Words reached = WORD(AT_MOST(GOAL, height), WHOLE(1), WHOLE(0)), best = WHOLE(0);
+    best = RAISED(best, ODD(lanes->table[PUSH_MORE]), lanes->priority[PUSH_MORE]);
+    best = RAISED(best, ODD(SHIFTED(lanes->table[DO_NOT_GO_FAST], pace)), lanes->priority[DO_NOT_GO_FAST]);
+    best = RAISED(best, ODD(SHIFTED(lanes->table[STOP_AT_GOAL], reached)), lanes->priority[STOP_AT_GOAL]);
+    best = RAISED(best, ODD(SHIFTED(lanes->table[HURRY_UP], cell)), lanes->priority[HURRY_UP]);
+    best = RAISED(best, ODD(SHIFTED(lanes->table[SLOW_DOWN], cell)), lanes->priority[SLOW_DOWN]);
+    return BOTH_BITS(best, WHOLE(7));
+}
+
+static inline Numbers speed_after(Numbers speed, const Truths *controls) {
+    Numbers more = speed + SPEED_STEP, next = PICK(controls[PUSH_MORE], more, speed);
+    next = PICK(controls[DO_NOT_GO_FAST], LESSER(speed, TOP_SPEED), next);
+    next = PICK(controls[STOP_AT_GOAL], ZERO, next);
+    next = PICK(controls[HURRY_UP], LESSER(more, TOP_SPEED), next);
+    return PICK(controls[SLOW_DOWN], GREATER(speed - SPEED_STEP, ZERO), next);
+}
+
+static inline Numbers earned_by(Numbers height, Numbers speed, Numbers together) {
+    Numbers earned = together + PICK(BELOW(SIZE(height - GOAL), ALL(0.5)), ALL(1), ALL(-0.1));
+    earned += PICK(BELOW(ALL(3.0 + 0.2), height), ALL(-1), ZERO);
+    return earned + PICK(BELOW(TOP_SPEED, SIZE(speed)), ALL(-0.1), ZERO);
+}
+
+static inline void advance(Lanes *lanes, Numbers root) {
+    Numbers *height = lanes->height, *speed = lanes->speed, before = lanes->tilt, earned[ROBOTS];
+    Numbers lowest = LESSER(LESSER(height[0], height[1]), height[2]);
+    Numbers highest = GREATER(GREATER(height[0], height[1]), height[2]);
+    Words tilted = WORD(BELOW(SMALL_TILT, before), WHOLE(1), WHOLE(0));
+    Truths controls[ROBOTS][BEHAVIORS + 1];
+    for (int robot = 0; robot < ROBOTS; robot++) {
+        Words action = decide(lanes, robot, tilted, lowest, highest);
+        for (int behavior = 0; behavior < BEHAVIORS; behavior++)
+            controls[robot][behavior] = SAME(action, WHOLE(behavior + 1));
+        controls[robot][NOBODY] = SAME(action, WHOLE(0));
+    }
+    for (int robot = 0; robot < ROBOTS; robot++) {
+        speed[robot] = speed_after(speed[robot], controls[robot]);
+        height[robot] += speed[robot] * ALL(0.005);
+    }
+    lanes->tilt = tilt_of(height);
+    Numbers leveling = PICK(BELOW(lanes->tilt - before, ALL(-0.5)), ALL(1), ALL(-0.1));
+    Numbers level = PICK(BELOW(lanes->tilt, SMALL_TILT), ALL(1) / root, ALL(-0.1) * root);
+    for (int robot = 0; robot < ROBOTS; robot++) {
+        earned[robot] = earned_by(height[robot], speed[robot], leveling + level);
+        for (int behavior = 0; behavior <= BEHAVIORS; behavior++)
+            lanes->credit[behavior] = ADDED(lanes->credit[behavior], controls[robot][behavior], earned[robot]);
+    }
+    lanes->total += earned[0] + earned[1] + earned[2];
+}
+
+static void set(Lanes *lanes, int lane, const double *height, const uint8_t *tables, const int64_t *structure) {
+    for (int robot = 0; robot < ROBOTS; robot++) ((double *)&lanes->height[robot])[lane] = height[robot];
+    for (int layer = 0; layer < BEHAVIORS; layer++) {
+        int64_t behavior = structure[layer], word = 0;
+        for (int cell = 0; cell < CELLS; cell++) word |= (int64_t)tables[behavior * CELLS + cell] << cell;
+        ((int64_t *)&lanes->table[behavior])[lane] = word;
+        ((int64_t *)&lanes->priority[behavior])[lane] = (layer + 1) * 8 + behavior + 1;
+    }
+}
+
+static void live(Lanes *lanes) {
+    lanes->tilt = tilt_of(lanes->height);
+    for (int step = 1; step <= STEPS; step++) advance(lanes, ALL(sqrt(step)));
+}
+
+void lift(int64_t agents, const double *heights, const uint8_t *tables, const int64_t *structures, double *returns,
+          double *credit) {
+    for (int64_t base = 0; base < agents; base += WIDTH) {
+        Lanes lanes;
+        memset(&lanes, 0, sizeof lanes);
+        int64_t count = agents - base < WIDTH ? agents - base : WIDTH;
+        for (int64_t lane = 0; lane < count; lane++)
+            set(&lanes, (int)lane, heights + (base + lane) * ROBOTS, tables + (base + lane) * BEHAVIORS * CELLS,
+                structures + (base + lane) * BEHAVIORS);
+        live(&lanes);
+        for (int64_t lane = 0; lane < count; lane++) {
+            returns[base + lane] = ((const double *)&lanes.total)[lane] / ROBOTS;
+            for (int behavior = 0; behavior <= BEHAVIORS; behavior++)
+                credit[(base + lane) * (BEHAVIORS + 1) + behavior] =
+                    ((const double *)&lanes.credit[behavior])[lane] / ROBOTS;
+        }
+    }
+}

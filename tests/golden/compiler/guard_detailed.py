@@ -1,0 +1,136 @@
+import numpy as np
+from bbsd.kernel.functions import clamp_index, divide, floor, is_finite, maximum, select
+from bbsd.kernel.streams import fold, uniform, word_of
+
+
+def rollout_detailed(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd):
+    key = np.zeros(8, np.uint64)
+    numbers = np.zeros(152, np.float64)
+    x_0 = numbers[0:8]
+    x_1 = numbers[8:16]
+    awake_0 = numbers[16:24]
+    awake_1 = numbers[24:32]
+    middle_0 = numbers[32:40]
+    sum_close = numbers[40:48]
+    steps_wait = numbers[48:56]
+    steps_come = numbers[56:64]
+    steps_nobody = numbers[64:72]
+    odd_x_0 = numbers[72:80]
+    odd_x_1 = numbers[80:88]
+    odd_middle_0 = numbers[88:96]
+    odd_middle_1 = numbers[96:104]
+    taken_ = numbers[104:112]
+    total = numbers[112:120]
+    credit_wait = numbers[120:128]
+    credit_come = numbers[128:136]
+    credit_nobody = numbers[136:144]
+    running_ = numbers[144:152]
+    cells = np.zeros(64, np.int64)
+    priority_wait = cells[0:8]
+    table_wait = cells[8:16]
+    priority_come = cells[16:24]
+    row_come = cells[24:32]
+    cell_come_0 = cells[32:40]
+    choice_come_0 = cells[40:48]
+    cell_come_1 = cells[48:56]
+    choice_come_1 = cells[56:64]
+    reach = constants[0]
+    for base in range(first, last, 8):
+        draw_1 = fold(0xac39aeacbaa9b617, word_of(0))
+        draw_2 = fold(0xffb22b91d28bcbe7, word_of(0))
+        for lane in range(8):
+            key[lane] = keys[base + lane]
+            priority_wait[lane] = priorities[0, base + lane]
+            table_wait[lane] = words[0, individuals[0, base + lane]]
+            priority_come[lane] = priorities[1, base + lane]
+            row_come[lane] = origins[1] + individuals[1, base + lane] * 80
+            part_1 = uniform(key[lane], draw_1, 0.0, 5.0)
+            part_2 = uniform(key[lane], draw_2, 0.0, 5.0)
+            x_0[lane] = part_1
+            x_1[lane] = part_2
+            awake_0[lane] = select(True, 1.0, 0.0)
+            awake_1[lane] = select(True, 1.0, 0.0)
+            middle_0[lane] = (part_1 + part_2) * 0.5
+            total[lane] = 0.0
+            credit_wait[lane] = 0.0
+            credit_come[lane] = 0.0
+            credit_nobody[lane] = 0.0
+            sum_close[lane] = 0.0
+            steps_wait[lane] = 0.0
+            steps_come[lane] = 0.0
+            steps_nobody[lane] = 0.0
+            odd_x_0[lane] = 0.0
+            odd_x_1[lane] = 0.0
+            odd_middle_0[lane] = 0.0
+            odd_middle_1[lane] = 0.0
+            taken_[lane] = 0.0
+            running_[lane] = 1.0
+        for step in range(1, 11):
+            now_1 = 0.1 * float(step)
+            for lane in range(8):
+                cell_come_0[lane] = int(abs(x_0[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_0[lane]), 39)
+                cell_come_1[lane] = int(abs(x_1[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_1[lane]), 39)
+            for lane in range(8):
+                choice_come_0[lane] = tables[row_come[lane] + cell_come_0[lane]]
+                choice_come_1[lane] = tables[row_come[lane] + cell_come_1[lane]]
+            for lane in range(8):
+                # Decide: the highest layer that is excited and whose cell is not No Action controls.
+                choice_wait_0 = table_wait[lane] & 1
+                bid_wait_0 = select(choice_wait_0 > 0, priority_wait[lane] + choice_wait_0, 0)
+                choice_come_0_ = choice_come_0[lane]
+                bid_come_0 = select((choice_come_0_ > 0) & ((awake_0[lane] != 0.0)), priority_come[lane] + choice_come_0_, 0)
+                action_0 = maximum(maximum(bid_wait_0, bid_come_0), 0) & 65535
+                choice_wait_1 = table_wait[lane] & 1
+                bid_wait_1 = select(choice_wait_1 > 0, priority_wait[lane] + choice_wait_1, 0)
+                choice_come_1_ = choice_come_1[lane]
+                bid_come_1 = select((choice_come_1_ > 0) & ((awake_1[lane] != 0.0)), priority_come[lane] + choice_come_1_, 0)
+                action_1 = maximum(maximum(bid_wait_1, bid_come_1), 0) & 65535
+                # Act, then dynamics and sensors.
+                acted_x_0 = select(action_0 == 2, 0.5 * (x_0[lane] + middle_0[lane]), x_0[lane])
+                next_x_0 = acted_x_0 - now_1
+                acted_x_1 = select(action_1 == 2, 0.5 * (x_1[lane] + middle_0[lane]), x_1[lane])
+                next_x_1 = acted_x_1 - now_1
+                next_awake_0 = select(action_0 == 3, False, (awake_0[lane] != 0.0))
+                next_awake_1 = select(action_1 == 3, False, (awake_1[lane] != 0.0))
+                next_middle_0 = (next_x_0 + next_x_1) * 0.5
+                # Reward: what each robot earned goes to what controlled it.
+                reward_close_0 = -abs(next_x_0 - next_middle_0)
+                reward_close_1 = -abs(next_x_1 - next_middle_0)
+                earned_0 = select(running_[lane] > 0.0, reward_close_0, 0.0)
+                earned_1 = select(running_[lane] > 0.0, reward_close_1, 0.0)
+                total[lane] = total[lane] + (earned_0 + earned_1)
+                credit_wait[lane] = credit_wait[lane] + select(action_0 == 1, earned_0, 0.0) + select(action_1 == 1, earned_1, 0.0)
+                credit_come[lane] = credit_come[lane] + select((action_0 >= 2) & (action_0 < 4), earned_0, 0.0) + select((action_1 >= 2) & (action_1 < 4), earned_1, 0.0)
+                credit_nobody[lane] = credit_nobody[lane] + select(action_0 == 0, earned_0, 0.0) + select(action_1 == 0, earned_1, 0.0)
+                # What an evaluation adds up.
+                sum_close[lane] = sum_close[lane] + select(running_[lane] > 0.0, reward_close_0, 0.0) + select(running_[lane] > 0.0, reward_close_1, 0.0)
+                steps_wait[lane] = steps_wait[lane] + select(action_0 == 1, running_[lane], 0.0) + select(action_1 == 1, running_[lane], 0.0)
+                steps_come[lane] = steps_come[lane] + select((action_0 >= 2) & (action_0 < 4), running_[lane], 0.0) + select((action_1 >= 2) & (action_1 < 4), running_[lane], 0.0)
+                steps_nobody[lane] = steps_nobody[lane] + select(action_0 == 0, running_[lane], 0.0) + select(action_1 == 0, running_[lane], 0.0)
+                odd_x_0[lane] = odd_x_0[lane] + select(is_finite(next_x_0), 0.0, running_[lane])
+                odd_x_1[lane] = odd_x_1[lane] + select(is_finite(next_x_1), 0.0, running_[lane])
+                odd_middle_0[lane] = odd_middle_0[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
+                odd_middle_1[lane] = odd_middle_1[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
+                taken_[lane] = taken_[lane] + running_[lane]
+                running_[lane] = select((next_x_0 < 0.0) | (next_x_1 < 0.0), 0.0, running_[lane])
+                x_0[lane] = next_x_0
+                x_1[lane] = next_x_1
+                awake_0[lane] = select(next_awake_0, 1.0, 0.0)
+                awake_1[lane] = select(next_awake_1, 1.0, 0.0)
+                middle_0[lane] = next_middle_0
+            if running_.sum() == 0.0:
+                break
+        for lane in range(8):
+            returns[base + lane] = divide(total[lane], 2.0)
+            credit[0, base + lane] = divide(credit_wait[lane], 2.0)
+            credit[1, base + lane] = divide(credit_come[lane], 2.0)
+            credit[2, base + lane] = divide(credit_nobody[lane], 2.0)
+            terms[0, base + lane] = divide(sum_close[lane], 2.0)
+            control[0, base + lane] = steps_wait[lane]
+            control[1, base + lane] = steps_come[lane]
+            control[2, base + lane] = steps_nobody[lane]
+            odd[0, base + lane] = odd_x_0[lane]
+            odd[1, base + lane] = odd_x_1[lane]
+            odd[2, base + lane] = odd_middle_0[lane]
+            odd[3, base + lane] = odd_middle_1[lane]
+            taken[base + lane] = taken_[lane]

@@ -1,0 +1,74 @@
+import math
+
+import numpy as np
+import pytest
+
+from bbsd.compiler import DetailedOutcome
+from bbsd.evaluation import evaluation, interval, weighted_evaluation
+from tests.unit.problems import problem_of
+
+TWO = """
+bbsd: 1
+name: two
+environment:
+  robots: 2
+  steps: 4
+  state: {x: 0}
+  sensors: {s: "list(x, -x)"}
+behaviors:
+  a: {actions: {do: {x: 1}}}
+  b: {actions: {do: {x: 2}}}
+reward: {one: x, other: -x}
+"""
+
+
+def outcome(returns, taken=4.0):
+    """Episodes of two robots; a controls three robot-steps and nobody the others."""
+    n = len(returns)
+    returns = np.array(returns, np.float64)
+    terms = np.stack([2 * returns, -returns], axis=1)
+    control = np.tile([3.0, 0.0, 2 * taken - 3], (n, 1))
+    odd = np.tile([0.0, 0, 0, 2, 0, 0], (n, 1))
+    return DetailedOutcome(returns, control, terms, control, np.full(n, taken), odd)
+
+
+def test_an_interval_is_the_normal_one_of_the_mean():
+    found = interval(np.array([1.0, 2, 3, 6]))
+    sd = math.sqrt((4 + 1 + 0 + 9) / 3)
+    assert (found.mean, found.count) == (3, 4)
+    assert found.sd == pytest.approx(sd)
+    assert found.low == pytest.approx(3 - 1.959964 * sd / 2)
+    assert found.high == pytest.approx(3 + 1.959964 * sd / 2)
+
+
+def test_one_value_has_no_interval():
+    found = interval(np.array([2.0]))
+    assert found.mean == 2
+    assert all(math.isnan(bound) for bound in (found.sd, found.low, found.high))
+
+
+def test_sums_become_means_and_shares():
+    found = evaluation(problem_of(TWO), [outcome([1, 2]), outcome([6], taken=2.0)], agents=1)
+    assert (found.mean, found.episodes, found.agents, found.exact) == (3, 3, 1, False)
+    assert found.reward_terms == {"one": 6, "other": -3}
+    assert found.control_share == {"a": 9 / 20, "b": 0, "nobody": 11 / 20}
+    assert found.steps == pytest.approx(10 / 3)
+    assert found.not_finite == {"s_0_1": 6}
+    assert found.ci95 == (found.returns.low, found.returns.high)
+
+
+def test_with_several_agents_the_interval_is_that_of_their_means():
+    found = evaluation(problem_of(TWO), [outcome([0, 2, 10, 14])], agents=2)
+    by_agent = interval(np.array([1.0, 12]))
+    assert (found.mean, found.returns.count) == (6.5, 4)
+    assert found.ci95 == (by_agent.low, by_agent.high)
+    assert found.sd == pytest.approx(np.std([0, 2, 10, 14], ddof=1))
+
+
+def test_an_exact_evaluation_weighs_every_episode():
+    found = weighted_evaluation(problem_of(TWO), [outcome([0]), outcome([8, 4])], np.array([0.5, 0.25, 0.25]))
+    assert (found.mean, found.ci95, found.exact) == (3, (3, 3), True)
+    assert found.sd == pytest.approx(math.sqrt(0.5 * 9 + 0.25 * 25 + 0.25 * 1))
+    assert found.reward_terms == {"one": 6, "other": -3}
+    assert found.control_share == {"a": 3 / 8, "b": 0, "nobody": 5 / 8}
+    assert found.steps == 4

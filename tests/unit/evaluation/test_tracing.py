@@ -1,0 +1,115 @@
+import math
+
+import numpy as np
+import pytest
+
+from bbsd.architecture import given_architecture
+from bbsd.evaluation import RewardNotFinite, agents_of, require_finite, returns_of, trace
+from bbsd.kernel.keys import keys
+from tests.unit.problems import problem_of
+
+WALK = """
+bbsd: 1
+name: walk
+environment:
+  robots: 2
+  steps: 5
+  world: {w: 0}
+  state: {x: 10 * robot, awake: "true"}
+  definitions: {double: 2 * x, "both(a, b)": a + b}
+  dynamics: {w: w + 1}
+  sensors: {place: "values(floor(x / 10), 0, 1)"}
+  ends: w == 3
+behaviors:
+  go:
+    inputs: [place]
+    actions: {near: {x: x + 1}, far: {x: x + 2, awake: "false"}}
+    rules: [{when: {place: 0}, do: near}, {otherwise: far}]
+  never: {excited: x < 0, actions: {stay: {x: x}}, rules: [otherwise: stay]}
+structure: [never, go]
+reward: {x: x, cost: -1}
+"""
+
+TERM = """
+bbsd: 1
+name: term
+environment: {{robots: 2, steps: 4, state: {{x: robot}}}}
+behaviors: {{b: {{actions: {{a: {{x: x}}}}, rules: [otherwise: a]}}}}
+structure: [b]
+reward: {{fine: 1, bad: "{bad}"}}
+"""
+
+
+def traced(text):
+    problem = problem_of(text)
+    return trace(problem, given_architecture(problem), 1, 1)
+
+
+def test_a_trace_tells_everything_of_every_step():
+    found = traced(WALK)
+    assert found.steps.tolist() == [1, 2, 3]
+    assert found.values["w", None, ()] == [1, 2, 3]
+    assert found.values["x", 1, ()] == [12, 14, 16]
+    assert found.values["awake", 0, ()] == [1, 1, 1]
+    assert found.values["awake", 1, ()] == [0, 0, 0]
+    assert found.values["double", 1, ()] == [24, 28, 32]
+    assert found.values["place", 0, ()] == ["0", "0", "0"]
+    assert found.values["place", 1, ()] == ["1", "1", "1"]
+    assert found.controlling == [["go"] * 3] * 2
+    assert found.actions == [["near"] * 3, ["far"] * 3]
+    assert [[part.tolist() for part in found.rewards[term]] for term in ("x", "cost")] == [
+        [[1, 2, 3], [12, 14, 16]],
+        [[-1, -1, -1], [-1, -1, -1]],
+    ]
+
+
+def test_a_trace_has_a_row_a_step_and_a_name_for_every_column():
+    found = traced(WALK)
+    assert found.columns == [
+        "step", "w", "x_0", "x_1", "awake_0", "awake_1", "place_0", "place_1", "double_0", "double_1",
+        "controlling_0", "action_0", "controlling_1", "action_1",
+        "reward_x_0", "reward_x_1", "reward_cost_0", "reward_cost_1",
+    ]  # fmt: skip
+    assert found.rows[1] == (2, 2, 2, 14, 1, 0, "0", "1", 4, 28, "go", "near", "go", "far", 2, 14, -1, -1)
+    assert len(found.rows) == 3
+
+
+def test_nobody_in_control_is_told():
+    found = traced(WALK.replace("[never, go]", "[never]"))
+    assert found.controlling == [["nobody"] * 3] * 2
+    assert found.actions == [[""] * 3] * 2
+
+
+@pytest.mark.parametrize(
+    ("bad", "step", "robot", "value"),
+    [
+        ("1 / (step - 3)", 3, 0, math.inf),
+        ("log(-robot * (step - 1))", 1, 0, -math.inf),
+        ("sqrt(-1) if robot == 1 and step > 1 else 0", 2, 1, math.nan),
+    ],
+)
+def test_a_reward_that_is_not_finite_is_named(bad, step, robot, value):
+    problem = problem_of(TERM.format(bad=bad))
+    with pytest.raises(
+        RewardNotFinite, match=f"the reward term bad was .* in step {step} for robot {robot}"
+    ) as error:
+        returns_of(problem, agents_of([given_architecture(problem)]), keys(1, 0, 2), 1)
+    assert str(error.value.value) == str(value)
+    assert "episode 1" in error.value.place
+
+
+def test_a_sum_that_overflows_is_named():
+    problem = problem_of(TERM.format(bad="1e308"))
+    with pytest.raises(RewardNotFinite, match=r"\(their sum\) was inf in step 4"):
+        returns_of(problem, agents_of([given_architecture(problem)]), keys(1, 0, 1), 1)
+
+
+def test_finite_returns_pass():
+    problem = problem_of(WALK)
+    require_finite(problem, agents_of([given_architecture(problem)]), keys(1, 0, 1), np.array([1.0]), 1)
+
+
+def test_what_is_not_finite_but_not_earned_is_no_mistake():
+    text = TERM.format(bad="x").replace("state: {x: robot}", "state: {x: robot, y: 1 / robot}")
+    problem = problem_of(text)
+    assert returns_of(problem, agents_of([given_architecture(problem)]), keys(1, 0, 1), 1).tolist() == [[6.0]]
