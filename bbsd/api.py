@@ -34,6 +34,7 @@ from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import run as runs
 from bbsd.solver.folder import Folder, Identity, identity, new_folder, old_folder
+from bbsd.solver.interruption import interrupts_noted
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.spec.loading import Loaded
@@ -134,9 +135,8 @@ def check(spec: str | Path) -> tuple[Diagnosis, ...]:
 
 def compile(spec: Spec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
     """The source of the kernel that a spec compiles to: a rollout for the solver and one for evaluation."""
-    meaning = load(spec, overrides=overrides).meaning
-    problem = compile_meaning(meaning)
-    return module_source(meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
+    problem = compile_meaning(load(spec, overrides=overrides).meaning)
+    return module_source(problem.meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
 
 
 def evaluate(
@@ -212,7 +212,7 @@ def design(
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
     who = identity(loaded.source.text, tuple(overrides), seed, runs)
     folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
-    with _reward_at_its_place(loaded):
+    with _reward_at_its_place(loaded), interrupts_noted():
         try:
             judged = _run(loaded, problem, folder, who, progress)
         except KeyboardInterrupt:

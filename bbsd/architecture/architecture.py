@@ -40,7 +40,7 @@ def given_architecture(problem: Problem) -> Architecture:
         HolesLeft: something is open; the message says what.
     """
     if found := holes(problem):
-        raise HolesLeft("; ".join(found))
+        raise HolesLeft(f"the design has holes: {'; '.join(found)}")
     tables = [
         np.where(table.given == OPEN_CELL, NO_ACTION, table.given).astype(np.uint8)
         for table in problem.tables

@@ -12,7 +12,9 @@ from bbsd.cli.design import design
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.explain import explain
 from bbsd.cli.mistakes import told
+from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
+from bbsd.cli.schema import schema
 from bbsd.version import __version__
 
 app = typer.Typer(
@@ -22,12 +24,14 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+app.command()(new)
 app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
 app.command()(check)
 app.command()(config)
 app.command("compile")(compile_)
+app.command()(schema)
 
 
 def _show_version(wanted: bool) -> None:

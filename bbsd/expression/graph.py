@@ -70,7 +70,7 @@ class Graph:
 
     def number(self, value: float) -> Node:
         """A literal number. Zeros of both signs are different literals."""
-        return self._make("literal", (), (float(value), str(value)), Kind.NUMBER, Level.CALL)
+        return self._make("literal", (), (float(value), str(float(value))), Kind.NUMBER, Level.CALL)
 
     def truth(self, *, value: bool) -> Node:
         """A literal truth."""

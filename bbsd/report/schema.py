@@ -14,6 +14,7 @@ from bbsd.expression.vocabulary import RESERVED, UNREADABLE
 from bbsd.spec import models, written
 from bbsd.spec.base import FREE, Part
 from bbsd.spec.written import Expression
+from bbsd.text.schema import meaning
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -25,6 +26,10 @@ Schema: TypeAlias = dict[str, Any]
 SCHEMA_FILE = "bbsd.schema.json"
 """What the schema is called where it lies in a file."""
 
+SCALAR: Schema = {"type": ["string", "number", "boolean"]}
+"""An expression, or a cell's name. It is not referred to: an editor would show its description, not the key's."""
+LETTERS = "[a-z][a-z0-9_]*"
+PARAMETERS = rf"(?:\s*\(\s*{LETTERS}\s*(?:,\s*{LETTERS}\s*)*\))?\s*"
 NAME_ADVICE = "names are small letters, digits and _, a letter first, and no word of the language"
 
 
@@ -33,9 +38,20 @@ def language_schema() -> Schema:
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "$id": "urn:bbsd:language:1",
-        "title": "A bbsd spec",
         **_part(models.Spec),
+        "title": "A bbsd spec",
         "definitions": _definitions(),
+    }
+
+
+def _definitions() -> Schema:
+    """Return what is referred to: names, and the one form that holds itself."""
+    table = {"type": "array", "items": _ref("constant")}
+    return {
+        "constant": {"description": "An expression, or a nested list of numbers.", "anyOf": [SCALAR, table]},
+        "name": _name(RESERVED),
+        "value_name": _name(RESERVED | UNREADABLE),
+        "definition": _name(RESERVED | UNREADABLE, PARAMETERS, r"\s*(?:\(|$)"),
     }
 
 
@@ -43,42 +59,21 @@ def _ref(definition: str) -> Schema:
     return {"$ref": f"#/definitions/{definition}"}
 
 
-def _definitions() -> Schema:
-    """Return what stands in many places of a spec."""
-    scalar = {"type": ["string", "number", "boolean"]}
-    return {
-        "expression": {"description": "An expression.", **scalar},
-        "constant": {
-            "description": "An expression, or a nested list of numbers.",
-            "anyOf": [_ref("expression"), {"type": "array", "items": _ref("constant")}],
-        },
-        "cell": {"description": "A cell's name.", **scalar},
-        "cells": {
-            "description": "A cell, or a list of cells.",
-            "anyOf": [_ref("cell"), {"type": "array", "items": _ref("cell"), "minItems": 1}],
-        },
-        "decision": _word_or_name("An action, no action, or open.", models.NO_ACTION_TEXT, models.OPEN),
-        "layer": _word_or_name("A behavior, or open.", models.OPEN),
-        "name": _name(RESERVED),
-        "value_name": _name(RESERVED | UNREADABLE),
-        "definition": _name(RESERVED | UNREADABLE, r"(?:\(.*\))?", r"(?:\(|$)"),
-    }
-
-
-def _word_or_name(description: str, *words: str) -> Schema:
-    """Return a text for which editors propose some words."""
-    return {"description": description, "anyOf": [{"enum": [*words]}, {"type": "string"}]}
-
-
 def _name(taken: Iterable[str], rest: str = "", end: str = "$") -> Schema:
-    pattern = f"^(?!(?:{'|'.join(sorted(taken))}){end})[a-z][a-z0-9_]*{rest}$|^{FREE}"
+    pattern = f"^(?!(?:{'|'.join(sorted(taken))}){end}){LETTERS}{rest}$|^{FREE}"
     return {"type": "string", "pattern": pattern, "patternErrorMessage": NAME_ADVICE}
+
+
+def _word_or_name(*words: str) -> Schema:
+    """Return a text for which editors propose some words."""
+    return {"type": "string", "anyOf": [{"enum": [*words]}, {"type": "string"}]}
 
 
 def _part(part: type[Part]) -> Schema:
     """Return a block with the language's own keys."""
     fields = part.model_fields
     return {
+        "title": part.__name__.lower(),
         "description": " ".join((part.__doc__ or "").split()),
         "type": "object",
         "properties": {key: _field(part, key, field) for key, field in fields.items()},
@@ -92,9 +87,8 @@ def _field(part: type[Part], key: str, field: FieldInfo) -> Schema:
     schema = _ruled(READ_OTHERWISE.get((part, key)) or _kind(field.annotation), field.metadata)
     if not field.is_required():
         schema = {**_or_nothing(schema), **_default(field.default)}
-    if "$ref" in schema:  # beside which draft 7 knows no other key
-        schema = {"allOf": [{"$ref": schema.pop("$ref")}], **schema}
-    return {**schema, "description": field.description or ""}
+    default = f" Default: {schema['default']}" if "default" in schema else ""  # editors show no other
+    return {**schema, "description": f"{field.description or ''}{default}"}
 
 
 def _or_nothing(schema: Schema) -> Schema:
@@ -110,7 +104,7 @@ def _or_nothing(schema: Schema) -> Schema:
 def _default(value: object) -> Schema:
     match value:
         case Expression(text=text):
-            return {"default": text}
+            return {"default": meaning(text)}
         case int() | float() | str() if value != "":
             return {"default": value}
     return {}
@@ -170,26 +164,24 @@ def _read_by(validators: Iterable[object], readers: Mapping[object, Schema]) -> 
 
 KINDS: Mapping[object, Schema] = {
     Any: _ref("constant"),
-    Expression: _ref("expression"),
+    Expression: SCALAR,
     float: {"type": "number"},
     int: {"type": "integer"},
     str: {"type": "string"},
     NoneType: {"type": "null"},
 }
-READERS: Mapping[object, Schema] = {written.cell: _ref("cell")}
+READERS: Mapping[object, Schema] = {written.cell: SCALAR}
 NAMES: Mapping[object, Schema] = {
     written.name: _ref("name"),
     written.value_name: _ref("value_name"),
     written.definition_key: _ref("definition"),
 }
+DECISION = _word_or_name(models.NO_ACTION_TEXT, models.OPEN)
+CELLS: Schema = {"anyOf": [SCALAR, {"type": "array", "items": SCALAR, "minItems": 1}]}
 READ_OTHERWISE: Mapping[tuple[type[Part], str], Schema] = {
-    (models.When, "when"): {
-        "type": ["object", "null"],
-        "patternProperties": {f"^{FREE}": True},
-        "additionalProperties": _ref("cells"),
-    },
-    (models.When, "do"): _ref("decision"),
-    (models.Otherwise, "otherwise"): _ref("decision"),
-    (models.Spec, "structure"): {"type": ["array", "null"], "items": _ref("layer")},
+    (models.When, "when"): {**_mapping(str, str), "additionalProperties": CELLS},
+    (models.When, "do"): DECISION,
+    (models.Otherwise, "otherwise"): DECISION,
+    (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
 }
 """Keys whose values are not what their type says: the model makes one of several ways to write them."""

@@ -31,21 +31,17 @@ class Champions:
 
     def joined(self, agents: Agents, fitness: NDArray[np.float64]) -> Champions:
         """The champions after a generation's agents were added."""
-        best = fittest(agents, fitness, self.capacity)
-        tables = np.concatenate(
-            [pool[agents.members[best, index]] for index, pool in enumerate(agents.pools)], axis=1
-        )
-        every = np.concatenate([self.tables, tables])
-        structures = np.concatenate([self.structures, agents.structures[best]])
-        values = np.concatenate([self.fitness, fitness[best]])
-        kept: list[int] = []
-        seen: set[bytes] = set()
+        own = [pool[agents.members[:, index]] for index, pool in enumerate(agents.pools)]
+        tables = np.concatenate([self.tables, np.concatenate(own, axis=1)])
+        structures = np.concatenate([self.structures, agents.structures])
+        values = np.concatenate([self.fitness, fitness])
+        best: dict[bytes, int] = {}
         for place in np.argsort(-values, kind="stable"):
-            genotype = every[place].tobytes() + structures[place].tobytes()
-            if genotype not in seen and len(kept) < self.capacity:
-                seen.add(genotype)
-                kept.append(int(place))
-        return Champions(every[kept], structures[kept], values[kept], self.capacity)
+            if len(best) == self.capacity:
+                break
+            best.setdefault(tables[place].tobytes() + structures[place].tobytes(), int(place))
+        kept = list(best.values())
+        return Champions(tables[kept], structures[kept], values[kept], self.capacity)
 
     def architectures(self, problem: Problem) -> list[Architecture]:
         """The champions as architectures."""
@@ -54,18 +50,6 @@ class Champions:
             Architecture(tuple(np.split(tables, ends)), structure)
             for tables, structure in zip(self.tables, self.structures, strict=True)
         ]
-
-
-def fittest(agents: Agents, fitness: NDArray[np.float64], number: int) -> list[int]:
-    """The fittest agents of a generation, each different genotype once, the fittest first."""
-    found: dict[bytes, int] = {}
-    for agent in np.argsort(-fitness, kind="stable"):
-        if len(found) == number:
-            break
-        architecture = agents.architecture(int(agent))
-        genotype = b"".join(part.tobytes() for part in (*architecture.tables, architecture.structure))
-        found.setdefault(genotype, int(agent))
-    return list(found.values())
 
 
 def no_champions(problem: Problem, capacity: int) -> Champions:

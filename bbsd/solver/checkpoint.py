@@ -73,7 +73,7 @@ def load(path: Path) -> Progress:
     try:
         with np.load(BytesIO(content), allow_pickle=False) as arrays:
             return _progress(dict(arrays))
-    except (BadZipFile, KeyError, ValueError) as error:
+    except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError) as error:
         raise CheckpointError(f"{path} cannot be read: {error}") from None
 
 

@@ -150,19 +150,25 @@ class Folder:
 
 def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
     """A new folder: the one wanted, which must be empty or not there, or the first free one under `runs/`."""
-    if wanted is None:
-        folder = next(path for path in _defaults(name, seed) if not path.exists())
-    else:
-        folder = wanted
-        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-            raise FolderError(
-                f"{folder} is not empty; nothing is overwritten: choose another --out, or go on with --resume"
-            )
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        if wanted is None:
+            return Folder(next(path for path in _defaults(name, seed) if _made(path)))
+        if not _made(wanted) and (not wanted.is_dir() or any(wanted.iterdir())):
+            raise FolderError(
+                f"{wanted} is not empty; nothing is overwritten: choose another --out, or go on with --resume"
+            )
     except OSError as error:
-        raise FolderError(f"{folder} cannot be made: {error.strerror}") from None
-    return Folder(folder)
+        raise FolderError(f"{error.filename} cannot be made: {error.strerror}") from None
+    return Folder(wanted)
+
+
+def _made(path: Path) -> bool:
+    """Make a folder; False if it was there, maybe only just made by another run."""
+    try:
+        path.mkdir(parents=True)
+    except FileExistsError:
+        return False
+    return True
 
 
 def old_folder(wanted: Path | None, name: str, who: Identity) -> Folder:

@@ -132,7 +132,7 @@ def bred(
     expected = []
     for index, (pool, table) in enumerate(zip(state.pools, problem.tables, strict=True)):
         stream, fitness = fold(key, word_of(index)), state.fitness[index, : len(pool)]
-        if table.n_open:
+        if problem.evolves(index):
             pools.append(next_pool(stream, pool, fitness, table.n_actions, table.given, breeding))
             expected.append(expected_fitness(stream, fitness, breeding))
         else:

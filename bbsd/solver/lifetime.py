@@ -15,6 +15,7 @@ from bbsd.evaluation import require_finite
 from bbsd.kernel.keys import folded, units
 from bbsd.kernel.streams import name_word
 from bbsd.solver.counters import no_counters
+from bbsd.solver.interruption import heed
 from bbsd.solver.structures import random_structures, search_exact, search_sampled, update_values
 
 if TYPE_CHECKING:
@@ -53,6 +54,7 @@ def live(
     counters = no_counters(*values.shape) if learning.estimate == "counters" else None
     returns = np.empty((len(agents), learning.lifetime))
     for episode in range(1, learning.lifetime + 1):
+        heed()
         if learning.learned and episode > 1:
             structures = choose(problem, folded(folded(keys, SEARCH), episode), values, structures, learning)
             structures = explore(

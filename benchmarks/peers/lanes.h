@@ -9,6 +9,9 @@ typedef __m512d Numbers;
 typedef __m512i Words;
 typedef __mmask8 Truths;
 
+#define LOAD(from) _mm512_loadu_pd(from)
+#define LOAD_WORDS(from) _mm512_loadu_si512(from)
+#define STORE(to, x) _mm512_storeu_pd(to, x)
 #define ALL(x) _mm512_set1_pd(x)
 #define WHOLE(x) _mm512_set1_epi64(x)
 #define BELOW(a, b) _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ)
@@ -36,6 +39,9 @@ typedef __m256d Numbers;
 typedef __m256i Words;
 typedef __m256d Truths;
 
+#define LOAD(from) _mm256_loadu_pd(from)
+#define LOAD_WORDS(from) _mm256_loadu_si256((const Words *)(from))
+#define STORE(to, x) _mm256_storeu_pd(to, x)
 #define ALL(x) _mm256_set1_pd(x)
 #define WHOLE(x) _mm256_set1_epi64x(x)
 #define BELOW(a, b) _mm256_cmp_pd(a, b, _CMP_LT_OQ)

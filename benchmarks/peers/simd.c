@@ -1,6 +1,5 @@
 /* The lifting task with explicit vectors, a lane an agent, as many at a time as a vector holds; bbsd's arctangent. */
 #include <math.h>
-#include <string.h>
 #include "lanes.h"
 
 enum { STEPS = 300, ROBOTS = 3, BEHAVIORS = 5, CELLS = 6 };
@@ -16,6 +15,12 @@ typedef struct {
     Numbers height[ROBOTS], speed[ROBOTS], tilt, total, credit[BEHAVIORS + 1];
     Words table[BEHAVIORS], priority[BEHAVIORS];
 } Lanes;
+
+/* The same in memory, a row a vector. */
+typedef struct {
+    double height[ROBOTS][WIDTH], total[WIDTH], credit[BEHAVIORS + 1][WIDTH];
+    int64_t table[BEHAVIORS][WIDTH], priority[BEHAVIORS][WIDTH];
+} Rows;
 
 /* bbsd/kernel/angles.py, operation by operation, for x >= 0. */
 static inline Numbers arctangent(Numbers x) {
@@ -94,36 +99,47 @@ static inline void advance(Lanes *lanes, Numbers root) {
     lanes->total += earned[0] + earned[1] + earned[2];
 }
 
-static void set(Lanes *lanes, int lane, const double *height, const uint8_t *tables, const int64_t *structure) {
-    for (int robot = 0; robot < ROBOTS; robot++) ((double *)&lanes->height[robot])[lane] = height[robot];
+static void set(Rows *rows, int lane, const double *height, const uint8_t *tables, const int64_t *structure) {
+    for (int robot = 0; robot < ROBOTS; robot++) rows->height[robot][lane] = height[robot];
     for (int layer = 0; layer < BEHAVIORS; layer++) {
         int64_t behavior = structure[layer], word = 0;
         for (int cell = 0; cell < CELLS; cell++) word |= (int64_t)tables[behavior * CELLS + cell] << cell;
-        ((int64_t *)&lanes->table[behavior])[lane] = word;
-        ((int64_t *)&lanes->priority[behavior])[lane] = (layer + 1) * 8 + behavior + 1;
+        rows->table[behavior][lane] = word;
+        rows->priority[behavior][lane] = (layer + 1) * 8 + behavior + 1;
     }
 }
 
-static void live(Lanes *lanes) {
-    lanes->tilt = tilt_of(lanes->height);
-    for (int step = 1; step <= STEPS; step++) advance(lanes, ALL(sqrt(step)));
+static void live(Rows *rows) {
+    Lanes lanes;
+    for (int robot = 0; robot < ROBOTS; robot++) {
+        lanes.height[robot] = LOAD(rows->height[robot]);
+        lanes.speed[robot] = ZERO;
+    }
+    for (int behavior = 0; behavior < BEHAVIORS; behavior++) {
+        lanes.table[behavior] = LOAD_WORDS(rows->table[behavior]);
+        lanes.priority[behavior] = LOAD_WORDS(rows->priority[behavior]);
+    }
+    for (int behavior = 0; behavior <= BEHAVIORS; behavior++) lanes.credit[behavior] = ZERO;
+    lanes.total = ZERO;
+    lanes.tilt = tilt_of(lanes.height);
+    for (int step = 1; step <= STEPS; step++) advance(&lanes, ALL(sqrt(step)));
+    STORE(rows->total, lanes.total);
+    for (int behavior = 0; behavior <= BEHAVIORS; behavior++) STORE(rows->credit[behavior], lanes.credit[behavior]);
 }
 
 void lift(int64_t agents, const double *heights, const uint8_t *tables, const int64_t *structures, double *returns,
           double *credit) {
     for (int64_t base = 0; base < agents; base += WIDTH) {
-        Lanes lanes;
-        memset(&lanes, 0, sizeof lanes);
+        Rows rows = {0};
         int64_t count = agents - base < WIDTH ? agents - base : WIDTH;
         for (int64_t lane = 0; lane < count; lane++)
-            set(&lanes, (int)lane, heights + (base + lane) * ROBOTS, tables + (base + lane) * BEHAVIORS * CELLS,
+            set(&rows, (int)lane, heights + (base + lane) * ROBOTS, tables + (base + lane) * BEHAVIORS * CELLS,
                 structures + (base + lane) * BEHAVIORS);
-        live(&lanes);
+        live(&rows);
         for (int64_t lane = 0; lane < count; lane++) {
-            returns[base + lane] = ((const double *)&lanes.total)[lane] / ROBOTS;
+            returns[base + lane] = rows.total[lane] / ROBOTS;
             for (int behavior = 0; behavior <= BEHAVIORS; behavior++)
-                credit[(base + lane) * (BEHAVIORS + 1) + behavior] =
-                    ((const double *)&lanes.credit[behavior])[lane] / ROBOTS;
+                credit[(base + lane) * (BEHAVIORS + 1) + behavior] = rows.credit[behavior][lane] / ROBOTS;
         }
     }
 }

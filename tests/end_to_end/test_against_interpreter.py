@@ -63,7 +63,34 @@ def test_compiled_kernels_of_the_shipped_specs(path):
     compared(problem, seed=5, generation=1, n_agents=4, agents_seed=1)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+def test_cells_at_and_beyond_their_bounds():
+    partitions = {
+        "cut": "cut(count, 2, 5)",
+        "values": "values(count, 1, 3)",
+        "whole": "values(-count, -4, -2)",
+    }
+    actions = {f"say_{number}": {"said": number} for number in range(1, 8)}
+    spec = Spec.model_validate(
+        {
+            "bbsd": 1,
+            "name": "bounds",
+            "environment": {
+                "steps": 9,
+                "state": {"count": -1, "said": 0},
+                "dynamics": {"count": "count + 1"},
+            },
+            "behaviors": {
+                name: {"inputs": {"seen": partition}, "actions": actions}
+                for name, partition in partitions.items()
+            },
+            "reward": {"heard": "said * 8 ** step"},
+        }
+    )
+    problem = compile_meaning(meaning_of(spec, seed=1), compiled=False)
+    compared(problem, seed=1, generation=1, n_agents=20, agents_seed=1)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(specs(), st.integers(0, 2**32), st.integers(1, 3), st.sampled_from([1, 2]))
 def test_plain_kernels_of_specs_that_are_made_up(data, seed, generation, lanes):
     spec = Spec.model_validate(data)

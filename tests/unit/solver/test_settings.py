@@ -42,7 +42,9 @@ def test_the_learning_rate_follows_table_1():
 
 
 def test_a_generation_s_genetic_settings_count_generations_from_1():
-    assert settings().coevolution.breeding(3) == Breeding(3, 1, 0.5, 0.005, 0.01)
+    assert settings().coevolution.breeding(3) == Breeding(
+        tournament=3, elites=1, crossover=0.5, children=1, hard_mutation=0.005, soft_mutation=0.01
+    )
 
 
 def test_without_a_word_a_run_is_the_paper_s_lifting_experiment():

@@ -1,0 +1,90 @@
+"""`bbsd new`."""
+
+from collections.abc import Iterator
+from enum import StrEnum
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bbsd.cli.output import say, show
+from bbsd.errors import UsageError
+
+SUFFIXES = {".yaml", ".yml"}
+
+
+class Template(StrEnum):
+    """Specs to begin with, the simplest first: files in `templates`."""
+
+    MINIMAL = "minimal"
+    TWO_ROBOTS = "two_robots"
+    ANSWERS = "answers"
+
+
+class IsThereError(UsageError):
+    """A file that would have to be overwritten."""
+
+    advice = "nothing is overwritten: choose another name, or remove the file"
+
+
+def new(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME", help="The new spec's name; its file is NAME.yaml.", show_default=False
+        ),
+    ] = None,
+    template: Annotated[Template, typer.Option(help="What to begin with.")] = Template.MINIMAL,
+    listed: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
+) -> None:
+    """Write a small spec that runs, to be changed into your own.
+
+    Beside it goes the JSON Schema by which editors complete and check it.
+    """
+    if listed:
+        show("\n".join(_descriptions()))
+    elif name:
+        _write(Path(name if Path(name).suffix in SUFFIXES else f"{name}.yaml"), template)
+    else:
+        raise typer.BadParameter("give a NAME, or --list")
+
+
+def _descriptions() -> Iterator[str]:
+    from bbsd.text import Source, read
+
+    width = max(map(len, Template))
+    for template in Template:
+        yield f"{template:<{width}}  {read(Source(template, template_text(template))).data['summary']}"
+
+
+def template_text(template: Template) -> str:
+    """Return the text of a template."""
+    return files("bbsd.cli").joinpath("templates", f"{template}.yaml").read_text(encoding="utf-8")
+
+
+def _write(path: Path, template: Template) -> None:
+    from bbsd.report.schema import SCHEMA_FILE
+    from bbsd.text import Source, read, replace_blocks
+
+    document = read(Source(template, template_text(template)))
+    _create(path, replace_blocks(document, {("name",): path.stem}))
+    schema = path.with_name(SCHEMA_FILE)
+    if not schema.exists():
+        _create(schema, _schema_text())
+    say(f"{path} is there; next: bbsd design {path}")
+
+
+def _schema_text() -> str:
+    from bbsd.report.plain import json_text
+    from bbsd.report.schema import language_schema
+
+    return f"{json_text(language_schema())}\n"
+
+
+def _create(path: Path, text: str) -> None:
+    try:
+        with path.open("x", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+    except FileExistsError:
+        raise IsThereError(f"{path} is there already") from None

@@ -1,0 +1,47 @@
+"""`python -m benchmarks`: measures everything in alternation and writes docs/benchmarks.md; 1 where the guard fails."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from benchmarks import growth, guard, processes, rollout
+from benchmarks.page import asked_section, machine
+from benchmarks.timing import on_one_core
+
+SECTIONS = {"rollout": rollout, "guard": guard, "growth": growth, "processes": processes}
+PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
+
+HEAD = """# Benchmarks
+
+Written by `make bench`. Every ratio is of times taken in alternation in one run, on one core; absolute times are this
+machine's. What is measured, and how, is in `benchmarks/`.
+"""
+
+
+def main() -> int:
+    """Measure, write, and fail where vectorization was lost."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure bbsd.")
+    parser.add_argument("--quick", action="store_true", help="small sizes, few rounds; prints and writes no file")
+    parser.add_argument("--only", choices=SECTIONS, nargs="+", help="print only these sections; writes no file")
+    arguments = parser.parse_args()
+    on_one_core()
+    parts, asked = [HEAD, machine()], []
+    for name in arguments.only or SECTIONS:
+        print(f"{name} ...", file=sys.stderr)
+        text, bounds = SECTIONS[name].section(quick=arguments.quick)
+        parts.append(text)
+        asked += bounds
+    page = "\n\n".join([*parts[:2], asked_section(asked), *parts[2:]]) + "\n"
+    if arguments.quick or arguments.only:
+        print(page)
+    else:
+        PAGE.write_text(page, encoding="utf-8")
+    lost = [each.what for each in asked if each.what.startswith("guard") and not each.met]
+    print("\n".join(lost), file=sys.stderr)
+    return 1 if lost else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,71 @@
+"""The guard: the same kernel one lane at a time must be much slower, or vectorization was lost without a word."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from benchmarks.generated import Shape, compiled, text_of
+from benchmarks.lifting import KEY, SPEC
+from benchmarks.page import Asked, table
+from benchmarks.timing import alternated
+from bbsd.kernel.keys import keys
+from bbsd.solver.random_agents import random_agents
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+LEAST = 2.0
+"""Vectors of 4 or 8 numbers; what a lost loop leaves is about 1."""
+AGENTS = 400
+
+SHAPES = {
+    "generated": Shape(),
+    "one robot": Shape(robots=1),
+    "8 robots": Shape(robots=8),
+    "20 behaviors": Shape(behaviors=20),
+    "tables of 1000 cells": Shape(cells=1000, seen="100 * x"),
+    "ends early": Shape(ends="all(x[r] > 2 for r in team)"),
+    "a draw in the dynamics": Shape(dynamics="x + 0.01 * v + uniform(-0.01, 0.01)"),
+    "a normal draw in the dynamics": Shape(dynamics="x + 0.01 * v + normal(0, 0.01)"),
+    "lists": Shape(
+        sensors={"far": "list(abs(x - 0.1 * k) for k in range(8))"}, excited="any(far[k] < 0.3 for k in range(8))"
+    ),
+    "sine and cosine": Shape(dynamics="x + 0.01 * v * cos(x) + 0.001 * sin(9 * x)"),
+    "exponential and logarithm": Shape(dynamics="x + 0.01 * v * exp(-abs(x)) + 0.001 * log(1 + abs(x))"),
+    "power, tanh, remainder": Shape(dynamics="x + 0.01 * tanh(v) + 0.001 * abs(x) ** 0.5 + 0.001 * (x % 0.3)"),
+}
+
+
+def section(*, quick: bool) -> tuple[str, list[Asked]]:
+    """The text of the section, and the guard's bounds."""
+    texts = {"lifting": SPEC.read_text(encoding="utf-8")}
+    texts |= {name: text_of(shape) for name, shape in SHAPES.items() if not quick or name == "generated"}
+    found = {name: gain(text, 3 if quick else 7) for name, text in texts.items()}
+    asked = [Asked(f"guard: vectorized, {name}", figure, LEAST, least=True) for name, figure in found.items()]
+    rows = [[name, f"{figure:.2f}", "yes" if figure >= LEAST else "**lost**"] for name, figure in found.items()]
+    return "\n".join(
+        [
+            "## The guard",
+            "",
+            "Time of the same kernel compiled for one lane, relative to the one for 40 lanes that a design runs. "
+            f"Below {LEAST:g} the benchmark fails: the loop over lanes is no longer vectorized.",
+            "",
+            *table(["spec", "gain", "vectorized"], rows),
+        ]
+    ), asked
+
+
+def gain(text: str, rounds: int) -> float:
+    """How much faster lanes in lock-step are."""
+    times = alternated({"scalar": rollout(text, 1), "lanes": rollout(text, None)}, rounds)
+    return float(np.median(times["scalar"] / times["lanes"]))
+
+
+def rollout(text: str, lanes: int | None) -> Callable[[], object]:
+    """An episode of random agents in that many lanes."""
+    problem = compiled(text, lanes)
+    agents = random_agents(problem, KEY, AGENTS)
+    team, streams = problem.assemble(agents.pools, agents.members, 1), keys(KEY, 0, AGENTS)
+    return lambda: team.episode(streams, agents.structures)

@@ -1,0 +1,128 @@
+"""Whole processes: how long a command takes to start, a design warm and cold, and how much memory it needs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from benchmarks.lifting import SPECS
+from benchmarks.page import Asked, table
+from bbsd.kernel.modules import CACHE_VARIABLE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+LIFTING, ABSTRACT = str(SPECS / "object_lifting.yaml"), str(SPECS / "abstract.yaml")
+PASS, HELP, CHECK = "python -c pass", "bbsd --help", "bbsd check specs/object_lifting.yaml"
+DESIGN_LIFTING, DESIGN_ABSTRACT = "bbsd design specs/object_lifting.yaml", "bbsd design specs/abstract.yaml"
+NEW, COLD = "a new spec, library cached, to its first generation", "the same, everything cold"
+
+BOUNDS = {HELP: 8, CHECK: 16, DESIGN_LIFTING: 1.5, DESIGN_ABSTRACT: 8, NEW: 2, COLD: 15}
+AGAINST_PASS = (HELP, CHECK)
+
+
+@dataclass(frozen=True, slots=True)
+class Spent:
+    """What a process took: seconds by the clock, seconds of the processor, MB at its peak."""
+
+    clock: float
+    processor: float
+    memory: float
+
+
+def section(*, quick: bool) -> tuple[str, list[Asked]]:
+    """The text of the section, and the bounds."""
+    with tempfile.TemporaryDirectory() as name:
+        found = measured(Path(name), quick=quick)
+    medians = {what: Spent(*np.median([_figures(one) for one in runs], axis=0)) for what, runs in found.items()}
+    shares = {
+        what: float(np.median([run.clock / bare.clock for run, bare in zip(found[what], found[PASS], strict=False)]))
+        for what in found
+    }
+    rows = [
+        [what, f"{one.clock:.3g}", f"{one.processor:.3g}", f"{shares[what]:.3g}", f"{one.memory:.0f}"]
+        for what, one in medians.items()
+    ]
+    asked = [
+        Asked(f"{what}, {'times python -c pass' if what in AGAINST_PASS else 'seconds'}", figure, BOUNDS[what])
+        for what, figure in ((w, shares[w] if w in AGAINST_PASS else medians[w].clock) for w in found if w in BOUNDS)
+    ]
+    return "\n".join(
+        [
+            "## Whole processes",
+            "",
+            "Medians of rounds in which each command ran once, seed 0, kernels cached unless it says otherwise. The "
+            "first generation is there when its line of `metrics.jsonl` is; the process is stopped then.",
+            "",
+            *table(["", "seconds", "processor's", "python -c pass = 1", "MB at the peak"], rows),
+        ]
+    ), asked
+
+
+def _figures(spent: Spent) -> tuple[float, float, float]:
+    return spent.clock, spent.processor, spent.memory
+
+
+def measured(folder: Path, *, quick: bool) -> dict[str, list[Spent]]:
+    """What each command took in each round."""
+    rounds = 2 if quick else 5
+    bbsd = [sys.executable, "-m", "bbsd"]
+    warm = folder / "warm"
+    commands: dict[str, Callable[[int], Spent]] = {
+        PASS: lambda _: spent([sys.executable, "-c", "pass"], warm),
+        HELP: lambda _: spent([*bbsd, "--help"], warm),
+        CHECK: lambda _: spent([*bbsd, "check", LIFTING], warm),
+        DESIGN_LIFTING: lambda turn: spent(_design(LIFTING, folder / f"lifting-{turn}"), warm),
+        NEW: lambda turn: to_first_generation(folder / f"new-{turn}", warm, steps=301 + turn),
+        COLD: lambda turn: to_first_generation(folder / f"cold-{turn}", folder / f"cache-{turn}", steps=300),
+    }
+    if not quick:
+        commands[DESIGN_ABSTRACT] = lambda turn: spent(_design(ABSTRACT, folder / f"abstract-{turn}"), warm)
+    for what in (DESIGN_LIFTING, DESIGN_ABSTRACT):
+        if what in commands:
+            commands[what](-1)
+    found: dict[str, list[Spent]] = {what: [] for what in commands}
+    for turn in range(rounds):
+        for what, run in commands.items():
+            if what in (COLD, DESIGN_ABSTRACT) and turn >= 2:
+                continue
+            found[what].append(run(turn))
+    return found
+
+
+def _design(spec: str, out: Path) -> list[str]:
+    return [sys.executable, "-m", "bbsd", "design", spec, "--quiet", "--out", str(out)]
+
+
+def to_first_generation(out: Path, cache: Path, steps: int) -> Spent:
+    """A design with so many steps, stopped when its first generation is written down."""
+    metrics = out / "metrics.jsonl"
+    command = [*_design(LIFTING, out), "--set", f"environment.steps={steps}"]
+    return spent(command, cache, enough=lambda: metrics.exists() and metrics.stat().st_size > 0)
+
+
+def spent(command: Sequence[str], cache: Path, enough: Callable[[], bool] | None = None) -> Spent:
+    """Run a command to its end, or until it is enough."""
+    cache.mkdir(parents=True, exist_ok=True, mode=0o700)
+    began = time.perf_counter()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env={**os.environ, CACHE_VARIABLE: str(cache)})
+    if enough is not None:
+        while process.poll() is None and not enough():
+            time.sleep(0.002)
+        clock = time.perf_counter() - began
+        process.kill()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if enough is None:
+        clock = time.perf_counter() - began
+        if process.returncode:
+            raise RuntimeError(f"{' '.join(command)} failed")
+    return Spent(clock, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)

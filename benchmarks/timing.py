@@ -1,0 +1,55 @@
+"""Times taken in alternation, so that whatever else the machine does meets all alike."""
+
+from __future__ import annotations
+
+import os
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """A median and the quartiles around it."""
+
+    median: float
+    low: float
+    high: float
+
+
+def spread(values: Floats) -> Spread:
+    """The spread of measured values, (n_rounds,)."""
+    low, median, high = np.percentile(values, [25, 50, 75])
+    return Spread(float(median), float(low), float(high))
+
+
+def alternated(calls: Mapping[str, Callable[[], Any]], rounds: int) -> dict[str, Floats]:
+    """Seconds of the processor's time that each call took in each round, (rounds,); the order turns round by round.
+
+    Processor time and not the clock's: a busy machine interrupts long calls more often than short ones.
+    """
+    names = list(calls)
+    times = {name: np.empty(rounds) for name in names}
+    for call in calls.values():
+        call()
+    for turn in range(rounds):
+        for name in names if turn % 2 else reversed(names):
+            began = time.process_time()
+            calls[name]()
+            times[name][turn] = time.process_time() - began
+    return times
+
+
+def on_one_core() -> None:
+    """Keep this process and its children on one core, where the system can; and XLA to one thread."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+    os.environ["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"

@@ -1,0 +1,109 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bbsd.evaluation import Agents, RewardNotFinite
+from bbsd.kernel.keys import keys
+from bbsd.solver.lifetime import live
+from bbsd.solver.random_agents import random_agents
+from tests.unit.problems import problem_of
+from tests.unit.solver.problems import guess
+
+KEYS = keys(5, 0, 8)
+KEY_OF_A_LATE_MISTAKE = 4
+
+
+def lives_of(search="sampled", structure="", **changed):
+    problem, settings = guess(structure, search=search)
+    agents = random_agents(problem, 1, 8)
+    return agents, live(problem, agents, KEYS, 1, replace(settings.learning, **changed))
+
+
+def test_a_lifetime_of_one_episode_is_lived_as_born():
+    agents, lives = lives_of(lifetime=1, last=1)
+    np.testing.assert_array_equal(lives.structures, agents.structures)
+    assert lives.returns.shape == (8, 1)
+
+
+def test_the_structure_returned_is_that_of_the_last_episode():
+    agents, two = lives_of(lifetime=2, last=1)
+    assert (two.structures != agents.structures).any()
+    _, three = lives_of(lifetime=3, last=1)
+    np.testing.assert_array_equal(three.returns[:, :2], two.returns)
+
+
+def test_a_given_structure_is_lived_with_to_the_end():
+    agents, lives = lives_of(structure="structure: [even, odd]")
+    np.testing.assert_array_equal(agents.structures, [[0, 1]] * 8)
+    np.testing.assert_array_equal(lives.structures, agents.structures)
+    assert lives.returns.shape == (8, 2)  # its last episodes
+
+
+@pytest.mark.parametrize("search", ["sampled", "exact"])
+def test_given_layers_stay_while_open_ones_are_learned(search):
+    _, lives = lives_of(search, structure="structure: [open, reckless, open]")
+    assert (lives.structures[:, 1] == 2).all()
+    assert {tuple(structure) for structure in lives.structures.tolist()} <= {(0, 2, 1), (1, 2, 0)}
+
+
+def test_exact_search_takes_the_best_assignment_of_what_was_learned():
+    problem, settings = guess(search="exact")
+    agents = random_agents(problem, 1, 8)
+    one = live(problem, agents, KEYS, 1, replace(settings.learning, lifetime=1, last=1))
+    two = live(problem, agents, KEYS, 1, replace(settings.learning, lifetime=2, last=1))
+    orders = [(a, b, 3 - a - b) for a in range(3) for b in range(3) if a != b]
+    for agent in range(8):
+        worth = {order: sum(one.values[agent, layer, order[layer]] for layer in range(3)) for order in orders}
+        present, chosen = tuple(agents.structures[agent]), tuple(two.structures[agent])
+        assert worth[chosen] == pytest.approx(max(worth.values()))
+        if worth[present] == max(worth.values()):
+            assert chosen == present
+
+
+def test_what_was_earned_under_a_behavior_is_learned_of_it():
+    text = """
+    bbsd: 1
+    name: two
+    environment: {steps: 4, state: {x: 0}}
+    behaviors:
+      low: {actions: {a: {x: 1}}, rules: [otherwise: a]}
+      high: {excited: step % 2 == 0, actions: {a: {x: 10}}, rules: [otherwise: a]}
+    reward: {x: x}
+    design: {learning: {episodes: 2, last: 1, rate: 0.5}}
+    """
+    problem, (_, settings) = problem_of(text), guess()
+    agents = Agents(
+        (np.ones((1, 1), np.uint8), np.ones((1, 1), np.uint8)), np.zeros((1, 2), np.int64), np.array([[0, 1]])
+    )
+    lives = live(problem, agents, keys(1, 0, 1), 1, replace(settings.learning, lifetime=1, last=1))
+    assert lives.returns.tolist() == [[22]]
+    assert lives.values.tolist() == [[[0.5 * 2, 0], [0, 0.5 * 20]]]  # layers, lowest first, by behaviors
+
+
+def test_agents_live_alike_alone_and_together():
+    problem, settings = guess()
+    agents = random_agents(problem, 1, 8)
+    together = live(problem, agents, KEYS, 1, settings.learning)
+    some = np.array([6, 1])
+    apart = live(problem, agents[some], KEYS[some], 1, settings.learning)
+    np.testing.assert_array_equal(apart.returns, together.returns[some])
+    np.testing.assert_array_equal(apart.structures, together.structures[some])
+    np.testing.assert_array_equal(apart.values, together.values[some])
+
+
+def test_a_reward_that_is_not_finite_is_told_with_its_generation_and_episode():
+    text = """
+    bbsd: 1
+    name: odd
+    environment: {steps: 3, state: {x: "chance(0.5)"}}
+    behaviors: {b: {actions: {a: {x: x}}}}
+    reward: {fine: 1, bad: "1 / (step - 2) if x else 0"}
+    """
+    problem, (_, settings) = problem_of(text), guess()
+    agents = random_agents(problem, 1, 1)
+    learning = replace(settings.learning, learned=False, lifetime=4)
+    with pytest.raises(
+        RewardNotFinite, match=r"bad was inf in step 2 for robot 0 \(generation 7, episode [2-9]"
+    ):
+        live(problem, agents, keys(KEY_OF_A_LATE_MISTAKE, 0, 1), 7, learning)
