@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -104,25 +104,21 @@ def _design(spec: str, out: Path) -> list[str]:
 
 def to_first_generation(out: Path, cache: Path, steps: int) -> Spent:
     """A design with so many steps, stopped when its first generation is written down."""
-    metrics = out / "metrics.jsonl"
     command = [*_design(LIFTING, out), "--set", f"environment.steps={steps}"]
-    return spent(command, cache, enough=lambda: metrics.exists() and metrics.stat().st_size > 0)
+    return spent(command, cache, until=str(out / "metrics.jsonl"))
 
 
-def spent(command: Sequence[str], cache: Path, enough: Callable[[], bool] | None = None) -> Spent:
-    """Run a command to its end, or until it is enough."""
+def spent(command: Sequence[str], cache: Path, until: str = "-") -> Spent:
+    """Run a command to its end, or until a file holds something."""
     cache.mkdir(parents=True, exist_ok=True, mode=0o700)
-    began = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env={**os.environ, CACHE_VARIABLE: str(cache)})
-    if enough is not None:
-        while process.poll() is None and not enough():
-            time.sleep(0.002)
-        clock = time.perf_counter() - began
-        process.kill()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if enough is None:
-        clock = time.perf_counter() - began
-        if process.returncode:
-            raise RuntimeError(f"{' '.join(command)} failed")
-    return Spent(clock, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
+    done = subprocess.run(
+        [sys.executable, str(Path(__file__).with_name("launcher.py")), until, *command],
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, CACHE_VARIABLE: str(cache)},
+    )
+    clock, processor, memory, status = map(float, done.stdout.split())
+    if status and not (until != "-" and status == -signal.SIGKILL):
+        raise RuntimeError(f"{' '.join(command)} failed")
+    return Spent(clock, processor, memory)

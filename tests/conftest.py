@@ -1,3 +1,4 @@
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -5,6 +6,8 @@ import pytest
 from hypothesis import settings
 
 GOLDEN = Path(__file__).parent / "golden"
+
+os.environ.setdefault("BBSD_CACHE_DIR", str(Path(__file__).parents[1] / ".cache" / "tests"))
 
 settings.register_profile("untimed", deadline=None)  # machines differ, and a first call may compile
 settings.load_profile("untimed")

@@ -11,6 +11,7 @@ from bbsd.cli.config import config
 from bbsd.cli.design import design
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.explain import explain
+from bbsd.cli.fmt import fmt
 from bbsd.cli.mistakes import told
 from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
@@ -29,6 +30,7 @@ app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
 app.command()(check)
+app.command()(fmt)
 app.command()(config)
 app.command("compile")(compile_)
 app.command()(schema)

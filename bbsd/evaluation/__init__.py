@@ -1,7 +1,8 @@
 """Episodes of finished designs, and their statistics."""
 
+from bbsd.evaluation.agents import Agents, agents_of
 from bbsd.evaluation.enumeration import NotEnumerable, enumerated
-from bbsd.evaluation.episodes import Agents, agents_of, detailed, returns_of
+from bbsd.evaluation.episodes import detailed, returns_of
 from bbsd.evaluation.finite import RewardNotFinite, require_finite
 from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interval, weighted_evaluation
 from bbsd.evaluation.tracing import Trace, trace

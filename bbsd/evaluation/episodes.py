@@ -2,58 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.architecture import Architecture
 from bbsd.evaluation.finite import require_finite
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
-    from bbsd.compiler import DetailedOutcome, Pool, Problem
+    from bbsd.compiler import DetailedOutcome, Problem
+    from bbsd.evaluation.agents import Agents
 
 BATCH = 4000
 """Lanes of one call. Fixed, since sums are made batch by batch."""
 
 Floats = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
 Keys = npt.NDArray[np.uint64]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Agents:
-    """Agents of individuals: pools, members (n_agents, n_behaviors), structures (n_agents, n_layers)."""
-
-    pools: tuple[Pool, ...]
-    members: Integers
-    structures: Integers
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __getitem__(self, which: Integers) -> Agents:
-        return Agents(self.pools, self.members[which], self.structures[which])
-
-    def living(self, structures: Integers) -> Agents:
-        """The same agents with other structures."""
-        return Agents(self.pools, self.members, structures)
-
-    def architecture(self, agent: int) -> Architecture:
-        """One agent by itself."""
-        tables = tuple(pool[self.members[agent, index]] for index, pool in enumerate(self.pools))
-        return Architecture(tables, self.structures[agent])
-
-
-def agents_of(architectures: Sequence[Architecture]) -> Agents:
-    """Each architecture as an agent of its own."""
-    n_behaviors = len(architectures[0].tables)
-    pools = tuple(np.stack([each.tables[index] for each in architectures]) for index in range(n_behaviors))
-    members = np.repeat(np.arange(len(architectures))[:, None], n_behaviors, axis=1)
-    return Agents(pools, members, np.stack([each.structure for each in architectures]))
 
 
 def returns_of(problem: Problem, agents: Agents, keys: Keys, generation: int) -> Floats:

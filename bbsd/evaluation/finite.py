@@ -12,7 +12,7 @@ from bbsd.evaluation.tracing import trace
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem
-    from bbsd.evaluation.episodes import Agents
+    from bbsd.evaluation.agents import Agents
 
 
 @dataclass
@@ -20,6 +20,7 @@ class RewardNotFinite(Exception):
     """A reward term was infinite or not a number."""
 
     term: str
+    """Empty where each term was finite and only their sum was not."""
     value: float
     step: int
     robot: int
@@ -27,7 +28,8 @@ class RewardNotFinite(Exception):
     """Where in the run: the generation, the agent, the episode."""
 
     def __str__(self) -> str:
-        return f"the reward term {self.term} was {self.value} in step {self.step} for robot {self.robot} ({self.place})"
+        what = f"the reward term {self.term}" if self.term else "the sum of all rewards"
+        return f"{what} was {self.value} in step {self.step} for robot {self.robot} ({self.place})"
 
 
 def require_finite(
@@ -49,4 +51,4 @@ def require_finite(
             odd = np.flatnonzero(~np.isfinite(values))
             if odd.size:
                 raise RewardNotFinite(term, float(values[odd[0]]), int(odd[0]) + 1, robot, where)
-    raise RewardNotFinite("(their sum)", float(returns[agent]), len(traced.steps), 0, where)
+    raise RewardNotFinite("", float(returns[agent]), len(traced.steps), 0, where)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import fsum, sqrt
 from statistics import NormalDist
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.naming import slot_text
+from bbsd.evaluation.sums import column_sums, deviation, expectation, mean, row_means
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -34,12 +36,12 @@ class Interval:
 
 def interval(values: Floats) -> Interval:
     """The mean of independent values (n,) with its interval; with one value the interval is unknown (NaN)."""
-    mean = float(np.mean(values))
+    center = mean(values)
     if len(values) < 2:
-        return Interval(mean, float("nan"), float("nan"), float("nan"), len(values))
-    sd = float(np.std(values, ddof=1))
-    half = QUANTILE_95 * sd / float(np.sqrt(len(values)))
-    return Interval(mean, sd, mean - half, mean + half, len(values))
+        return Interval(center, float("nan"), float("nan"), float("nan"), len(values))
+    sd = deviation(values)
+    half = QUANTILE_95 * sd / sqrt(len(values))
+    return Interval(center, sd, center - half, center + half, len(values))
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,20 +82,29 @@ def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: in
 
     With several agents the interval is that of the mean over agents, since episodes of one agent belong together.
     """
-    returns, terms, control, taken, odd = [], 0.0, 0.0, 0.0, 0.0
-    for outcome in outcomes:
-        returns.append(outcome.returns)
-        terms = terms + outcome.terms.sum(axis=0)
-        control = control + outcome.control.sum(axis=0)
-        taken += float(outcome.taken.sum())
-        odd = odd + outcome.odd.sum(axis=0)
-    every = np.concatenate(returns)
-    spread = interval(every)
+    parts = [_sums(outcome) for outcome in outcomes]
+    returns = np.concatenate([part.returns for part in parts])
+    terms, control, odd = (
+        column_sums(np.stack([getattr(part, name) for part in parts])) for name in ("terms", "control", "odd")
+    )
+    taken = fsum(float(part.taken[0]) for part in parts)
+    spread = interval(returns)
     if agents > 1:
-        by_agent = interval(every.reshape(agents, -1).mean(axis=1))
-        spread = Interval(spread.mean, spread.sd, by_agent.low, by_agent.high, len(every))
-    return Evaluation(
-        spread, len(every), agents, *_named(problem, terms, control, taken, odd, float(len(every)))
+        by_agent = interval(row_means(returns.reshape(agents, -1)))
+        spread = Interval(spread.mean, spread.sd, by_agent.low, by_agent.high, len(returns))
+    named = _named(problem, terms, control, taken, odd, float(len(returns)))
+    return Evaluation(spread, len(returns), agents, *named)
+
+
+def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
+    """All but the returns summed up over the episodes, so that memory does not grow with them."""
+    return replace(
+        outcome,
+        credit=column_sums(outcome.credit),
+        terms=column_sums(outcome.terms),
+        control=column_sums(outcome.control),
+        taken=column_sums(outcome.taken[:, None]),
+        odd=column_sums(outcome.odd),
     )
 
 
@@ -104,19 +115,21 @@ def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], w
         np.concatenate([getattr(part, name) for part in parts])
         for name in ("returns", "terms", "control", "taken", "odd")
     )
-    mean = float(weights @ returns)
-    sd = float(np.sqrt(weights @ (returns - mean) ** 2))
-    exact = Interval(mean, sd, mean, mean, len(weights))
-    sums = (weights @ terms, weights @ control, float(weights @ taken), odd.sum(axis=0))
-    return Evaluation(exact, len(weights), 1, *_named(problem, *sums, 1.0), exact=True)
+    center = expectation(weights, returns)
+    sd = sqrt(expectation(weights, (returns - center) ** 2))
+    by_term, by_control = (
+        np.array([expectation(weights, column) for column in columns.T]) for columns in (terms, control)
+    )
+    named = _named(problem, by_term, by_control, expectation(weights, taken), column_sums(odd), 1.0)
+    return Evaluation(Interval(center, sd, center, center, len(weights)), len(weights), 1, *named, exact=True)
 
 
 def _named(
     problem: Problem,
-    terms: Floats | float,
-    control: Floats | float,
+    terms: Floats,
+    control: Floats,
     taken: float,
-    odd: Floats | float,
+    odd: Floats,
     episodes: float,
 ) -> tuple[dict[str, float], dict[str, float], float, dict[str, int]]:
     """Sums as named means and shares."""
@@ -124,14 +137,10 @@ def _named(
     who = (*problem.names, "nobody")
     by_term = {
         name: float(value) / episodes
-        for name, value in zip(problem.meaning.episode.reward, np.atleast_1d(terms), strict=True)
+        for name, value in zip(problem.meaning.episode.reward, terms, strict=True)
     }
-    share = {
-        name: float(value) / (taken * robots) for name, value in zip(who, np.atleast_1d(control), strict=True)
-    }
+    share = {name: float(value) / (taken * robots) for name, value in zip(who, control, strict=True)}
     counts = {
-        slot_text(slot, robots): int(value)
-        for slot, value in zip(problem.places, np.atleast_1d(odd), strict=False)
-        if value
+        slot_text(slot, robots): int(value) for slot, value in zip(problem.places, odd, strict=True) if value
     }
     return by_term, share, taken / episodes, counts

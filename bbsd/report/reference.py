@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import re
+from textwrap import fill
 from types import UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -34,6 +35,8 @@ BLOCKS: Mapping[str, tuple[type[Part], ...]] = {
     "design.answer": (design.Answer,),
 }
 """Headings, and the parts of a spec that are described under each."""
+
+WIDTH = 110
 
 MARKED = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
@@ -67,7 +70,7 @@ def draws_text() -> str:
 
 def reserved_text() -> str:
     """The words that cannot be names."""
-    return " ".join(f"`{word}`" for word in sorted(RESERVED)) + "\n"
+    return fill(" ".join(f"`{word}`" for word in sorted(RESERVED)), WIDTH) + "\n"
 
 
 def mistakes_text() -> str:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bbsd.evaluation.sums import deviation, mean
+
 if TYPE_CHECKING:
     from bbsd.compiler import Pool, Problem
     from bbsd.solver.generation import Census, State
@@ -18,10 +20,10 @@ def line(run: int, state: State, census: Census, problem: Problem) -> dict[str, 
     return {
         "run": run + 1,
         "generation": state.generation,
-        "mean": float(np.mean(census.fitness)),
+        "mean": mean(census.fitness),
         "best": float(census.fitness[best]),
-        "sd": float(np.std(census.fitness, ddof=1)) if len(census.fitness) > 1 else 0.0,
-        "lifetime": float(np.mean(census.lifetime_fitness)),
+        "sd": deviation(census.fitness) if len(census.fitness) > 1 else 0.0,
+        "lifetime": mean(census.lifetime_fitness),
         "diversity": {name: diversity(pool) for name, pool in zip(problem.names, state.pools, strict=True)},
         "structure": structure,
     }
@@ -31,5 +33,5 @@ def diversity(pool: Pool) -> float:
     """The probability that two individuals, drawn with replacement, differ in a cell; the mean over all cells."""
     different = np.ones(pool.shape[1])
     for value in range(int(pool.max(initial=0)) + 1):
-        different -= np.mean(pool == value, axis=0) ** 2
-    return float(np.mean(different))
+        different -= (np.count_nonzero(pool == value, axis=0) / len(pool)) ** 2
+    return mean(different)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.evaluation import agents_of, returns_of
+from bbsd.evaluation.sums import deviation, row_means
 from bbsd.kernel.keys import keys
 from bbsd.solver.interruption import heed
 
@@ -53,17 +54,16 @@ def race(problem: Problem, entrants: Sequence[Architecture], key: int, cap: int)
         earned = np.hstack([earned, returns_of(problem, agents, keys(key, done, count), generation)])
         kept = still_running(earned)
         running, earned = running[kept], earned[kept]
-    best = int(np.argmax(earned.mean(axis=1))) if earned.shape[1] else 0
+    best = int(np.argmax(row_means(earned))) if earned.shape[1] else 0
     return Finish(int(running[best]), earned.shape[1], len(running))
 
 
 def still_running(earned: NDArray[np.float64]) -> NDArray[np.int64]:
     """Who may still be the best, given the returns (n_designs, n_episodes) so far; always the leader."""
-    means = earned.mean(axis=1)
-    leader = int(np.argmax(means))
+    leader = int(np.argmax(row_means(earned)))
     behind = earned[leader] - earned
-    error = behind.std(axis=1, ddof=1) / np.sqrt(earned.shape[1])
-    beaten = behind.mean(axis=1) > DOUBT * error
+    errors = np.array([deviation(each) for each in behind]) / np.sqrt(earned.shape[1])
+    beaten = row_means(behind) > DOUBT * errors
     beaten |= _repeats(earned)
     beaten[leader] = False
     return np.flatnonzero(~beaten)

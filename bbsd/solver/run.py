@@ -9,6 +9,7 @@ import numpy as np
 
 from bbsd.architecture import Architecture
 from bbsd.evaluation import Evaluation, Interval, agents_of, detailed, evaluation, interval, returns_of
+from bbsd.evaluation.sums import row_means
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import metrics
@@ -100,7 +101,7 @@ def judge(progress: Progress, problem: Problem, settings: Settings, seed: int) -
     judged = evaluation(problem, detailed(problem, agents_of([best]), fresh, generation), 1)
     strangers = random_agents(problem, fold(key, RANDOM), RANDOM_AGENTS)
     earned = returns_of(problem, strangers, keys(fold(key, RANDOM), 0, RANDOM_EPISODES), generation)
-    return Judgement(best, judged, _lifetime(best, problem, settings, key), interval(earned.mean(axis=1)))
+    return Judgement(best, judged, _lifetime(best, problem, settings, key), interval(row_means(earned)))
 
 
 def _lifetime(best: Architecture, problem: Problem, settings: Settings, key: int) -> Interval:
@@ -108,4 +109,4 @@ def _lifetime(best: Architecture, problem: Problem, settings: Settings, key: int
     agents = agents_of([best])[np.zeros(n_agents, np.int64)]
     streams = keys(fold(key, LIFETIMES), 0, n_agents)
     lives = live(problem, agents, streams, settings.coevolution.generations, settings.learning)
-    return interval(lives.returns.mean(axis=1))
+    return interval(row_means(lives.returns))

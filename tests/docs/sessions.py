@@ -66,5 +66,7 @@ def _printed(command: str, folder: Path) -> str:
 
 def _agree(shown: str, printed: str) -> bool:
     """Whether a document shows what is printed; ... on a line stands for any lines, and durations may differ."""
-    parts = [re.escape(SECONDS.sub("0 s", part)) for part in re.split(r"^\.\.\.\n", shown, flags=re.MULTILINE)]
+    parts = [
+        re.escape(SECONDS.sub("0 s", part)) for part in re.split(r"^\.\.\.\n", shown, flags=re.MULTILINE)
+    ]
     return re.fullmatch("(?:.*\n)*".join(parts), SECONDS.sub("0 s", printed)) is not None

@@ -10,7 +10,9 @@ PAGE = Path(__file__).parents[2] / "docs" / "rollout.md"
 
 
 def blocks(kind):
-    return re.findall(rf"^```{kind}[^\n]*\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    return re.findall(
+        rf"^```{kind}[^\n]*\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )
 
 
 def test_the_environment_stepped_in_python_is_solved(tmp_path, monkeypatch):

@@ -60,14 +60,14 @@ def digits(numbers):
 def test_compiled_kernels_of_the_shipped_specs(path):
     spec = Spec.model_validate(read(Source(path.name, path.read_text())).data)
     problem = compile_meaning(meaning_of(spec, seed=5))
-    compared(problem, seed=5, generation=1, n_agents=4, agents_seed=1)
+    compared(problem, seed=5, generation=1, n_agents=2, agents_seed=1)
 
 
 def test_cells_at_and_beyond_their_bounds():
     partitions = {
-        "cut": "cut(count, 2, 5)",
-        "values": "values(count, 1, 3)",
-        "whole": "values(-count, -4, -2)",
+        "a": "cut(count, 2, 5)",
+        "b": "values(count, 1, 3)",
+        "c": "values(-count, -4, -2)",
     }
     actions = {f"say_{number}": {"said": number} for number in range(1, 8)}
     spec = Spec.model_validate(

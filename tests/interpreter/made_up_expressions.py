@@ -130,7 +130,7 @@ def function(draw: Draw, reach: Reach, depth: int) -> str:
 def binary(draw: Draw, reach: Reach, depth: int) -> str:
     operator = draw(st.sampled_from(["+", "-", "*", "/", "//", "%"]))
     left, right = number(draw, reach, depth), number(draw, reach, depth)
-    return draw(st.sampled_from([f"({left} {operator} {right})", f"{left} {operator} ({right})"]))
+    return f"({left} {operator} {right})" if draw(st.booleans()) else f"{left} {operator} ({right})"
 
 
 def power(draw: Draw, reach: Reach, depth: int) -> str:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
 from bbsd.expression.tree import frames, names_used
 from bbsd.spec.meaning.constants import expressions_in
-from bbsd.spec.meaning.order import among_themselves, circles, heights, names_in
+from bbsd.spec.meaning.order import among_themselves, circles, heights
 from bbsd.spec.models import OTHERWISE, Spec
 from bbsd.spec.written import Expression, signature
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from bbsd.expression.tree import Expr
 
 LINK = 8
 """Frames that Python needs to get from a name to the expression behind it."""
@@ -65,31 +67,41 @@ def _tell_twice(name: str, path: Path, first: Path, findings: Findings) -> None:
 
 def unordered(spec: Spec, defined: Mapping[str, Definition], findings: Findings) -> dict[str, Unusable]:
     """Names whose values would need themselves, or too long a chain of other values; which is told."""
-    places = dict(reversed(blocks(spec, defined)))
-    found: dict[str, Unusable] = {}
-    constants = {name: names_in(expressions_in(value)) for name, value in spec.constants.items()}
-    for group in (constants, _episodes_uses(spec, defined)):
-        uses = among_themselves(group)
-        told, involved = circles(uses)
-        for circle in told:
-            message = f"a circle: {' needs '.join(circle)}"
-            advice = "keep one of the values as state, from step to step"
-            findings.tell(places[circle[0]], "BB063", message, KEY, advice)
-        found |= dict.fromkeys(involved, Unusable())
-    return found | _too_high(spec, defined, found.keys(), findings)
-
-
-def _episodes_uses(spec: Spec, defined: Mapping[str, Definition]) -> dict[str, frozenset[str]]:
-    uses = {name: names_in(written) for name, written in _written(spec).items()}
-    for name, definition in defined.items():
-        uses[name] = names_used(definition.expression, frozenset(definition.parameters))
-    return uses
-
-
-def _written(spec: Spec) -> dict[str, list[Expression]]:
     environment = spec.environment
-    starts = {name: [start] for name, start in (*environment.world.items(), *environment.state.items())}
-    return starts | {name: _conditions(written) for name, written in environment.sensors.items()}
+    derived = {
+        name: Needs.of([definition.expression], definition.parameters) for name, definition in defined.items()
+    }
+    constants = {name: Needs.of(_trees(expressions_in(value))) for name, value in spec.constants.items()}
+    starts = {
+        name: Needs.of([each.tree]) for name, each in (*environment.world.items(), *environment.state.items())
+    }
+    sensors = {name: Needs.of(_trees(_conditions(each))) for name, each in environment.sensors.items()}
+    places = dict(reversed(blocks(spec, defined)))
+    found = _circular(constants, places, findings)
+    # At the start there are no sensors yet, and later world and state are stored.
+    for group in (starts | derived, derived | sensors):
+        found |= _circular(group, places, findings)
+        found |= _too_high(
+            {name: needs for name, needs in group.items() if name not in found}, places, findings
+        )
+    return found
+
+
+class Needs(NamedTuple):
+    """What a value is computed from: names, and frames of Python's stack."""
+
+    names: frozenset[str]
+    frames: int
+
+    @classmethod
+    def of(cls, trees: Sequence[Expr], parameters: Sequence[str] = ()) -> Needs:
+        """What expressions need, of which those with these names are given."""
+        used = frozenset[str]().union(*(names_used(tree, frozenset(parameters)) for tree in trees))
+        return cls(used, LINK + max(map(frames, trees), default=0))
+
+
+def _trees(written: Iterable[Expression]) -> list[Expr]:
+    return [each.tree for each in written]
 
 
 def _conditions(written: Expression | Mapping[str, Expression]) -> list[Expression]:
@@ -98,17 +110,23 @@ def _conditions(written: Expression | Mapping[str, Expression]) -> list[Expressi
     return [condition for condition in written.values() if condition.text != OTHERWISE]
 
 
-def _too_high(
-    spec: Spec, defined: Mapping[str, Definition], unordered: Collection[str], findings: Findings
+def _circular(
+    group: Mapping[str, Needs], places: Mapping[str, Path], findings: Findings
 ) -> dict[str, Unusable]:
-    """Names that build on a longer chain of others than can be followed."""
-    trees = {name: [each.tree for each in written] for name, written in _written(spec).items()}
-    trees |= {name: [definition.expression] for name, definition in defined.items()}
-    weights = {name: LINK + max(map(frames, of), default=0) for name, of in trees.items()}
-    ordered = {name: used for name, used in _episodes_uses(spec, defined).items() if name not in unordered}
-    uses = among_themselves(ordered)
+    told, involved = circles(among_themselves({name: needs.names for name, needs in group.items()}))
+    for circle in told:
+        message = f"a circle: {' needs '.join(circle)}"
+        advice = "keep one of the values as state, from step to step"
+        findings.tell(places[circle[0]], "BB063", message, KEY, advice)
+    return dict.fromkeys(involved, Unusable())
+
+
+def _too_high(
+    group: Mapping[str, Needs], places: Mapping[str, Path], findings: Findings
+) -> dict[str, Unusable]:
+    uses = among_themselves({name: needs.names for name, needs in group.items()})
+    weights = {name: needs.frames for name, needs in group.items()}
     found = {name: Unusable() for name, height in heights(uses, weights).items() if height > MAX_HEIGHT}
-    places = dict(blocks(spec, defined))
     for name in found:
         if uses[name].isdisjoint(found):
             message = f"{name} needs too long a chain of values, each computed from the next"

@@ -410,3 +410,13 @@ def test_a_loop_over_lanes_is_vectorized(expression: str) -> None:
     (code,) = kernel(expression, True).lanes.inspect_llvm().values()
     assert re.search(r"<\d+ x double>", code)
     assert not re.search(r"call [^@]*double @(?!llvm\.)", code)
+
+
+@pytest.mark.parametrize(
+    ("x", "index"),
+    [(-INF, 0), (-1.0, 0), (-0.0, 0), (0.0, 0), (1.0, 1), (4.0, 4), (5.0, 4), (1e300, 4), (INF, 4), (NAN, 0)],
+)
+def test_an_index_goes_to_the_nearest_end_and_never_wraps(x, index):
+    found = f.clamp_index(x, 4)
+    assert (found, type(found)) == (index, int)
+    assert f.clamp_index(x, 0) == 0

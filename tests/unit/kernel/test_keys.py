@@ -1,7 +1,7 @@
 import numpy as np
 
-from bbsd.kernel.keys import folded, keys
-from bbsd.kernel.streams import fold
+from bbsd.kernel.keys import folded, keys, units
+from bbsd.kernel.streams import fold, unit
 
 KEYS = [0, 1, 2**63, 2**64 - 1]
 
@@ -27,3 +27,7 @@ def test_a_word_is_folded_into_each_stream():
         found = folded(streams, word)
         assert found.dtype == np.uint64
         assert found.tolist() == [fold(key, word) for key in KEYS]
+
+
+def test_units_are_those_of_each_stream():
+    assert units(np.array(KEYS, np.uint64)).tolist() == [unit(key) for key in KEYS]

@@ -1,6 +1,6 @@
 """Small problems to be designed, as plain Python."""
 
-from bbsd.solver.settings import settings_of
+from bbsd.solver.settings import Breeding, settings_of
 from tests.unit.problems import problem_of
 
 GUESS = """
@@ -24,6 +24,10 @@ design:
   answer: {{candidates: 5, episodes: 100, judged: 100}}
 """
 """Say where you are; the behaviors know a part of the answers each, one cell is given and one behavior harmful."""
+
+
+BREEDING = Breeding(tournament=3, elites=1, crossover=0.5, children=1, hard_mutation=0.0, soft_mutation=0.0)
+"""Table 1 but without mutation."""
 
 
 def guess(structure="", sharing="uniform", search="sampled", culture="{size: 3}", lanes=None, seed=0):

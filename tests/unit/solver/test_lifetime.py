@@ -5,7 +5,7 @@ import pytest
 
 from bbsd.evaluation import Agents, RewardNotFinite
 from bbsd.kernel.keys import keys
-from bbsd.solver.lifetime import live
+from bbsd.solver.lifetime import explore, live
 from bbsd.solver.random_agents import random_agents
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
@@ -59,6 +59,30 @@ def test_exact_search_takes_the_best_assignment_of_what_was_learned():
         assert worth[chosen] == pytest.approx(max(worth.values()))
         if worth[present] == max(worth.values()):
             assert chosen == present
+
+
+def test_exploring_agents_have_random_structures_but_not_in_the_last_episodes():
+    problem, settings = guess()
+    present = np.tile([0, 1, 2], (4000, 1))
+    always = np.full(4, 0.3)
+    learning = replace(settings.learning, exploration=always, lifetime=4, last=2)
+    explored = explore(problem, keys(1, 0, 4000), present, learning, 2)
+    others = np.mean((explored != present).any(axis=1))
+    assert others == pytest.approx(0.3 * 5 / 6, abs=0.03)  # one of six orders is the present one
+    for episode in (3, 4):
+        np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, learning, episode), present)
+    never = replace(learning, exploration=np.zeros(4))
+    np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, never, 2), present)
+
+
+def test_by_counters_a_pair_is_worth_its_share_of_the_reinforcement():
+    """(9) by (11): with a rate of 1, what a step under the pair earned times the share of steps it controlled."""
+    problem, settings = guess("structure: [reckless, even, odd]")
+    agents = random_agents(problem, 1, 1)
+    learning = replace(settings.learning, lifetime=1, last=1, rate=np.ones(1), estimate="counters")
+    lives = live(problem, agents, keys(1, 0, 1), 1, learning)
+    # The reckless one on top says 9 in both steps: -1 a step, all the time.
+    assert lives.values.tolist() == [[[0, 0, 0], [0, 0, 0], [0, 0, -1]]]
 
 
 def test_what_was_earned_under_a_behavior_is_learned_of_it():

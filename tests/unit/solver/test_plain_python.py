@@ -4,15 +4,15 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import bbsd
 from bbsd.solver.culture import Culture, draw_memes
-from bbsd.solver.genetics import OPEN_CELL, next_pool, random_pool
+from bbsd.solver.genetics import OPEN_CELL, expected_fitness, next_pool, random_pool
 from bbsd.solver.pairing import members
-from bbsd.solver.settings import Breeding
 from bbsd.solver.structures import (
     OPEN,
     candidates_for,
@@ -21,6 +21,7 @@ from bbsd.solver.structures import (
     search_sampled,
     update_values,
 )
+from tests.unit.solver.problems import BREEDING
 
 KEYS = [0, 3, 2**63 - 1, 2**63, 2**64 - 1]
 
@@ -42,9 +43,11 @@ def pools_bred(key):
     given_cells = np.array([OPEN_CELL, 1, OPEN_CELL, OPEN_CELL], np.uint8)
     pool = random_pool(key, 6, given_cells, 3)
     fitness = np.array([0.0, 2.0, 1.0, -np.inf, 2.0, 1.0])
+    breeding = replace(BREEDING, children=2, hard_mutation=0.4, soft_mutation=0.3)
     return [
         pool,
-        next_pool(key, pool, fitness, 3, given_cells, Breeding(3, 1, 0.5, 0.4, 0.3)),
+        expected_fitness(key, fitness, breeding),
+        next_pool(key, pool, fitness, 3, given_cells, breeding),
     ]
 
 
@@ -53,7 +56,11 @@ def everything():
     culture = Culture(np.array([[0, 1], [1, 0], [2, 0]]), np.array([-5.0, -1.0, 5.0]))
     results = structures_learned()
     for key in KEYS:
-        results += [*pools_bred(key), members(key, [4, 3], 10), draw_memes(key, culture, 10, 0.7)]
+        results += [
+            *pools_bred(key),
+            members(key, [np.zeros(4), np.zeros(3)], 10),
+            draw_memes(key, culture, 10, 0.7),
+        ]
     return [result.astype("<f8").tobytes().hex() for result in results]
 
 

@@ -9,45 +9,25 @@ import bbsd
 from bbsd.errors import KINDS, Diagnosis, SpecError
 from bbsd.expression import graph
 from bbsd.spec.loading import check, load
-from bbsd.text import Data, Source, read, write
+from bbsd.text import Source, read
+from tests.unit.spec.specs import source
 
 PACKAGE = Path(bbsd.__file__).parent
 CATALOG = PACKAGE / "errors"
 NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB045"}
 """What no few lines can show: files that are missing or no text, what is too large, what only a run finds."""
 
-BASE: dict[str, Data] = {
-    "bbsd": 1,
-    "name": "example",
-    "environment": {
-        "robots": 3,
-        "steps": 10,
-        "state": {"height": "uniform(2, 3)", "speed": 0},
-        "dynamics": {"height": "height + speed"},
-        "sensors": {"tilt": "height - mean(height[r] for r in team)", "tilted": "tilt > 1"},
-    },
-    "behaviors": {"stop": {"inputs": {"reached": "height >= 3"}, "actions": {"halt": {"speed": 0}}}},
-    "reward": {"near": "1 if abs(height - 3) < 1 else 0"},
-}
-
-
-def merged(base: Data, part: Data) -> Data:
-    if not (isinstance(base, dict) and isinstance(part, dict) and part):
-        return part
-    return {**base, **{key: merged(base.get(key), value) for key, value in part.items()}}
-
 
 def told(example: str) -> tuple[Diagnosis, ...]:
     """What is wrong with an example: an argument, a part of a spec, or a text that is no YAML."""
     if example.startswith("--set "):
         return of_override(example.removeprefix("--set "))
-    part = read(Source("example", example))
-    return part.diagnoses or check(Source("example", write(merged(BASE, part.data))))
+    return read(Source("example", example)).diagnoses or check(source(example))
 
 
 def of_override(argument: str) -> tuple[Diagnosis, ...]:
     try:
-        load(Source("example", write(BASE)), overrides=[argument])
+        load(source(), overrides=[argument])
     except SpecError as error:
         return error.diagnoses
     return ()

@@ -1,0 +1,50 @@
+"""Agents as the solver and the evaluation handle them: individuals of pools, and a structure each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from bbsd.architecture import Architecture
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bbsd.compiler import Pool
+
+Integers = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Agents:
+    """Agents of individuals: pools, members (n_agents, n_behaviors), structures (n_agents, n_layers)."""
+
+    pools: tuple[Pool, ...]
+    members: Integers
+    structures: Integers
+
+    def __len__(self) -> int:
+        return len(self.members)
+
+    def __getitem__(self, which: Integers) -> Agents:
+        return Agents(self.pools, self.members[which], self.structures[which])
+
+    def living(self, structures: Integers) -> Agents:
+        """The same agents with other structures."""
+        return Agents(self.pools, self.members, structures)
+
+    def architecture(self, agent: int) -> Architecture:
+        """One agent by itself."""
+        tables = tuple(pool[self.members[agent, index]] for index, pool in enumerate(self.pools))
+        return Architecture(tables, self.structures[agent])
+
+
+def agents_of(architectures: Sequence[Architecture]) -> Agents:
+    """Each architecture as an agent of its own."""
+    n_behaviors = len(architectures[0].tables)
+    pools = tuple(np.stack([each.tables[index] for each in architectures]) for index in range(n_behaviors))
+    members = np.repeat(np.arange(len(architectures))[:, None], n_behaviors, axis=1)
+    return Agents(pools, members, np.stack([each.structure for each in architectures]))

@@ -1,0 +1,24 @@
+"""The commands and options that pages name exist."""
+
+import re
+from pathlib import Path
+
+from typer.main import get_command
+
+from bbsd.cli.app import app
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
+
+
+def test_commands_that_pages_name_exist():
+    named = set(re.findall(r"(?:`|\$ )bbsd ([a-z]+)", TEXT))
+    assert named <= set(get_command(app).commands)
+    assert {"design", "evaluate", "explain"} <= named
+
+
+def test_options_that_pages_name_exist():
+    commands = get_command(app).commands.values()
+    known = {option for command in commands for each in command.params for option in each.opts}
+    assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", TEXT)) - {"--update-golden"} <= known

@@ -1,0 +1,45 @@
+import pytest
+
+from bbsd.errors import KINDS
+from bbsd.report.reference import BLOCKS, SECTIONS, filled, keys_text, mistakes_text
+from bbsd.spec.base import Part
+
+
+def subclasses(part):
+    return {part, *(found for below in part.__subclasses__() for found in subclasses(below))}
+
+
+def test_what_stands_between_marks_is_written_anew_and_the_rest_stays():
+    document = "before\n<!-- generated: draws -->\nold\n<!-- end -->\nafter\n"
+    new = f"before\n<!-- generated: draws -->\n\n{SECTIONS['draws']()}\n<!-- end -->\nafter\n"
+    assert filled(document) == new
+    assert filled(new) == new
+
+
+def test_an_unknown_mark_is_an_error():
+    with pytest.raises(KeyError, match="colors"):
+        filled("<!-- generated: colors -->\n<!-- end -->")
+
+
+def test_every_part_of_a_spec_is_described():
+    assert {part for parts in BLOCKS.values() for part in parts} == subclasses(Part) - {Part}
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        "| `robots` | whole number, 1 to 64 | 1 | Robots that carry the architecture. |",
+        "| `sharing` | `uniform` or `value` | `uniform` | How agents' fitness is shared: (15) or (17). |",
+        "| `inputs` | list of texts, or NAME: partition |  | Its own partitions, or the names of sensors that are;"
+        " none: a table of one cell. |",
+        "| `steps` | whole number, 1 to 10,000,000 | required | Steps of an episode at most. |",
+    ],
+)
+def test_a_key_has_its_kind_bounds_default_and_meaning(row):
+    assert row in keys_text().splitlines()
+
+
+def test_every_code_has_a_row():
+    assert [line.split(" | ")[0].removeprefix("| ") for line in mistakes_text().splitlines()[2:]] == list(
+        KINDS
+    )

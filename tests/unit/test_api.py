@@ -1,0 +1,198 @@
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+import bbsd.api
+from bbsd.architecture import HolesLeft
+from bbsd.errors import SpecError
+from bbsd.evaluation import NotEnumerable
+from bbsd.solver.folder import FolderError
+
+SPEC = Path(__file__).parents[1] / "end_to_end" / "specs" / "thermostat.yaml"
+SEED = 2
+EXACT = """
+bbsd: 1
+name: exact
+environment: {steps: 1, state: {x: "integers(1, 4)", y: 0}}
+behaviors:
+  low: {inputs: {low: x < 3}, actions: {say: {y: 1}}, rules: [{when: {low: true}, do: say}, otherwise: no action]}
+structure: [low]
+reward: {right: "x if y == 1 else 0"}
+"""
+"""Of 1, 2, 3 and 4 the first two are earned."""
+
+
+@pytest.fixture(scope="module")
+def designed(tmp_path_factory):
+    """A design of two runs, and what was told meanwhile."""
+    told = []
+    out = tmp_path_factory.mktemp("api") / "run"
+    return bbsd.api.design(SPEC, seed=SEED, runs=2, out=out, progress=told.append), told
+
+
+@pytest.fixture
+def spec(tmp_path):
+    """Writes a spec and gives its path."""
+
+    def write(text):
+        path = tmp_path / "spec.yaml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def files(folder):
+    return [(folder / name).read_bytes() for name in ("architecture.yaml", "metrics.jsonl", "spec.yaml")]
+
+
+def test_a_design_is_written_beside_what_it_came_from(designed):
+    found, _ = designed
+    assert found.architecture == found.folder / "architecture.yaml"
+    assert (found.folder / "spec.yaml").read_text() == SPEC.read_text()
+    note = json.loads((found.folder / "run.json").read_text())
+    assert (note["seed"], note["runs"], note["set"]) == (SEED, 2, [])
+    assert note["result"]["return"]["mean"] == found.mean
+    assert sorted(found.structure) == ["heat", "save"]
+
+
+def test_what_was_designed_has_no_holes_and_earns_what_was_said(designed):
+    found, _ = designed
+    again = bbsd.api.evaluate(found.architecture, episodes=2000)
+    assert again.mean == pytest.approx(found.mean, abs=4 * found.sd / found.episodes**0.5)
+    assert found.ci95[0] < found.mean < found.ci95[1]
+    assert found.mean > found.random.high
+    with pytest.raises(bbsd.api.NothingToDesign, match="no holes"):
+        bbsd.api.design(found.architecture, out=found.folder / "again")
+    assert not (found.folder / "again").exists()
+
+
+def test_progress_is_told_after_every_generation(designed):
+    _, told = designed
+    assert [(each.run, each.generation) for each in told] == [
+        (run, g) for run in (1, 2) for g in (1, 2, 3, 4)
+    ]
+    assert {(each.runs, each.generations) for each in told} == {(2, 4)}
+    assert all(each.mean <= each.best for each in told)
+
+
+def test_the_same_command_writes_the_same_bytes(designed, tmp_path):
+    found, _ = designed
+    again = bbsd.api.design(SPEC, seed=SEED, runs=2, out=tmp_path / "run")
+    assert files(again.folder) == files(found.folder)
+    assert again.evaluation == found.evaluation
+
+
+@pytest.mark.parametrize("at", [1, 4, 6])
+def test_a_stopped_design_goes_on_to_the_same_bytes(designed, tmp_path, at):
+    found, _ = designed
+    told = []
+
+    def stop(progress):
+        told.append(progress)
+        if len(told) == at:
+            raise KeyboardInterrupt
+
+    with pytest.raises(bbsd.api.Interrupted) as stopped:
+        bbsd.api.design(SPEC, seed=SEED, runs=2, out=tmp_path / "run", progress=stop)
+    assert stopped.value.folder == tmp_path / "run"
+    assert not (tmp_path / "run" / "architecture.yaml").exists()
+    again = bbsd.api.design(SPEC, seed=SEED, runs=2, out=tmp_path / "run", resume=True, progress=told.append)
+    assert len(told) == 8
+    assert files(again.folder) == files(found.folder)
+
+
+def test_a_design_is_gone_on_with_only_where_it_is_the_same(designed):
+    found, _ = designed
+    before = files(found.folder)
+    for changed in ({"seed": 3}, {"runs": 1}, {"overrides": ["environment.steps=3"]}):
+        with pytest.raises(FolderError, match="holds no run of this spec"):
+            bbsd.api.design(SPEC, **{"seed": SEED, "runs": 2, **changed}, out=found.folder, resume=True)
+    with pytest.raises(FolderError, match="nothing is overwritten"):
+        bbsd.api.design(SPEC, seed=SEED, runs=2, out=found.folder)
+    assert files(found.folder) == before
+
+
+def test_a_spec_with_holes_is_not_evaluated_but_by_random_agents():
+    with pytest.raises(HolesLeft, match="heat: 3 of 3 cells open; 2 of 2 layers open"):
+        bbsd.api.evaluate(SPEC)
+    random = bbsd.api.evaluate(SPEC, fill="random", agents=50, episodes=4)
+    assert (random.agents, random.episodes) == (50, 200)
+
+
+def test_an_evaluation_is_the_same_for_the_same_seed_only(designed):
+    path = designed[0].architecture
+    first, again, other = (bbsd.api.evaluate(path, episodes=100, seed=seed) for seed in (1, 1, 2))
+    assert first == again
+    assert first != other
+
+
+def test_a_trace_is_an_episode_that_was_evaluated(designed):
+    path = designed[0].architecture
+    earned = []
+    for episode in range(3):
+        rewards = bbsd.api.trace(path, seed=1, episode=episode).rewards
+        earned.append(sum(float(values.sum()) for [values] in rewards.values()))
+    means = [bbsd.api.evaluate(path, seed=1, episodes=episodes).mean for episodes in (1, 2, 3)]
+    assert means == pytest.approx([sum(earned[:count]) / count for count in (1, 2, 3)])
+    assert len({*means}) > 1 or all(a == b for a, b in pairwise(earned))
+
+
+def test_an_exact_evaluation_tries_every_start(spec):
+    found = bbsd.api.evaluate(spec(EXACT), exact=True)
+    assert (found.mean, found.episodes, found.exact) == (0.75, 4, True)
+
+
+def test_an_exact_evaluation_of_what_cannot_be_enumerated_is_refused(spec):
+    with pytest.raises(NotEnumerable, match="uniform"):
+        bbsd.api.evaluate(spec(EXACT.replace("integers(1, 4)", "uniform(1, 4)")), exact=True)
+
+
+@pytest.mark.parametrize(
+    ("reward", "line", "message"),
+    [
+        ("{fine: 1, right: 1 / (step - 1)}", 7, "reward term right was inf in step 1 for robot 0"),
+        ("{right: 1e308, more: 1e308}", 7, "the sum of all rewards was inf in step 1"),
+    ],
+)
+def test_a_reward_that_is_not_finite_is_told_at_its_place(spec, reward, line, message):
+    path = spec(EXACT.partition("reward:")[0].strip() + f"\nreward: {reward}\n")
+    with pytest.raises(SpecError) as error:
+        bbsd.api.evaluate(path, episodes=1)
+    [diagnosis] = error.value.diagnoses
+    assert diagnosis.code == "BB045"
+    assert message in diagnosis.message
+    assert diagnosis.place.line == line
+
+
+def test_the_kernel_that_is_printed_is_the_one_that_runs():
+    source = bbsd.api.compile(SPEC, lanes=8)
+    assert "def rollout(" in source
+    assert "def rollout_detailed(" in source
+    lifting = Path(__file__).parents[2] / "specs" / "object_lifting.yaml"
+    assert bbsd.api.compile(lifting).count("atan(") == 4  # the tilt once at the start and once a step
+
+
+def test_mistakes_are_found_without_an_error(spec):
+    assert bbsd.api.check(SPEC) == ()
+    assert [each.code for each in bbsd.api.check(spec(EXACT.replace("steps: 1", "stesp: 1")))] != []
+
+
+def test_overrides_change_what_is_evaluated(spec):
+    path = spec(EXACT)
+    assert bbsd.api.evaluate(path, exact=True, overrides=["environment.state.x=2"]).mean == 2
+    assert bbsd.api.load(path, overrides=["environment.steps=7"]).spec.environment.steps == 7
+
+
+def test_a_loaded_spec_is_taken_as_it_is(spec):
+    loaded = bbsd.api.load(spec(EXACT))
+    assert bbsd.api.load(loaded) is loaded
+    assert bbsd.api.evaluate(loaded, exact=True).mean == 0.75
+
+
+def test_an_explanation_needs_a_design(designed):
+    with pytest.raises(HolesLeft):
+        bbsd.api.explain(SPEC)
+    assert bbsd.api.explain(designed[0].architecture) is not None
