@@ -1,24 +1,34 @@
 """`bbsd check`."""
 
 import sys
+from collections.abc import Sequence
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from bbsd.cli.mistakes import MISTAKE, diagnoses_text
-from bbsd.cli.options import AsFormat, Format
 from bbsd.cli.output import has_color, show
-from bbsd.errors import KINDS, SpecError, describe, did_you_mean, render_json
+from bbsd.errors import KINDS, Diagnosis, SpecError, describe, did_you_mean, render_json
 from bbsd.report.numbers import count
 from bbsd.report.plain import json_text
+
+
+class Format(StrEnum):
+    """How mistakes are printed: for people, for programs, beside a pull request's lines, for code scanning."""
+
+    TEXT = "text"
+    JSON = "json"
+    GITHUB = "github"
+    SARIF = "sarif"
 
 
 def check(
     specs: Annotated[
         list[Path] | None, typer.Argument(metavar="SPEC...", help="Specs, YAML files.", show_default=False)
     ] = None,
-    form: AsFormat = Format.TEXT,
+    form: Annotated[Format, typer.Option("--format", help="How to print it.")] = Format.TEXT,
     code: Annotated[
         str | None,
         typer.Option("--describe", metavar="CODE", help="Describe a kind of mistake, such as BB006."),
@@ -39,12 +49,21 @@ def check(
 def _check(specs: list[Path], form: Format) -> None:
     found = [(spec, *_checked(spec)) for spec in specs]
     errors = [error for _, _, error in found if error]
-    if form is Format.JSON:
-        show(json_text(render_json(each for error in errors for each in error.diagnoses)))
-    else:
+    if form is Format.TEXT:
         show("\n".join(_verdict(*each) for each in found))
+    else:
+        show(_machine_text([each for error in errors for each in error.diagnoses], form))
     if errors:
         raise typer.Exit(MISTAKE)
+
+
+def _machine_text(diagnoses: Sequence[Diagnosis], form: Format) -> str:
+    from bbsd.report.github import github_text
+    from bbsd.report.sarif import sarif_log
+
+    if form is Format.GITHUB:
+        return github_text(diagnoses)
+    return json_text(sarif_log(diagnoses) if form is Format.SARIF else render_json(diagnoses))
 
 
 def _checked(spec: Path) -> tuple[str, SpecError | None]:

@@ -1,6 +1,5 @@
 """`bbsd fmt`."""
 
-import sys
 from difflib import unified_diff
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

@@ -37,8 +37,8 @@ def cache_folder(name: str) -> Path:
     others could write it, one notice says so on standard error and a temporary folder takes its place, which
     lasts as long as this process and serves its children too.
     """
-    root = _cache_root()
-    if not _usable(root) or not _usable(root / name):
+    root = cache_root()
+    if not usable(root) or not usable(root / name):
         sys.stderr.write(
             f"bbsd: cannot keep compiled code in {root}; set {CACHE_VARIABLE} to a folder of your own\n"
         )
@@ -68,7 +68,8 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
     return module
 
 
-def _cache_root() -> Path:
+def cache_root() -> Path:
+    """The user's cache: $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache."""
     if given := os.environ.get(CACHE_VARIABLE):
         return Path(given).absolute()
     home = os.environ.get("XDG_CACHE_HOME", "")
@@ -76,7 +77,7 @@ def _cache_root() -> Path:
 
 
 @cache
-def _usable(folder: Path) -> bool:
+def usable(folder: Path) -> bool:
     """Whether the folder, made if need be, is the user's alone to write: what lies in a cache is executed."""
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)

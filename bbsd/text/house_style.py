@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import re
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from bbsd.text.edits import line_break
@@ -96,7 +97,7 @@ def _inner_lines(document: Document) -> set[int]:
 def _gaps(source: Source, lines: list[str], root: Mapping) -> Iterator[int]:
     """Yield the lines before which there is to be a blank one: keys at the top, with the comments above them."""
     entries = [] if root.flow else [*root.entries.values()]
-    for before, entry in zip(entries, entries[1:], strict=False):
+    for before, entry in pairwise(entries):
         if _is_block(source, before) or _is_block(source, entry):
             yield _first_line(source, lines, entry)
 

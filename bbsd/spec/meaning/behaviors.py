@@ -119,7 +119,7 @@ def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict
             name: _shared(name, decision, (*path, place), robot) for place, name in enumerate(written.inputs)
         }
         for place, name in enumerate(written.inputs):
-            if name in written.inputs[:place]:
+            if name in written.inputs[:place] and name not in decision.names.unusable:
                 decision.names.findings.tell((*path, place), "BB040", f"{name} is listed twice")
     return {name: part for name, part in found.items() if part is not None}
 

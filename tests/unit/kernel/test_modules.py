@@ -96,7 +96,7 @@ def test_where_the_cache_is(
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
-    assert modules._cache_root() == Path(expected)
+    assert modules.cache_root() == Path(expected)
 
 
 def test_an_unwritable_cache_is_replaced_for_the_process_with_one_notice(

@@ -30,8 +30,7 @@ def test_every_part_of_a_spec_is_described():
     [
         "| `robots` | whole number, 1 to 64 | 1 | Robots that carry the architecture. |",
         "| `sharing` | `uniform` or `value` | `uniform` | How agents' fitness is shared: (15) or (17). |",
-        "| `inputs` | list of texts, or NAME: partition |  | Its own partitions, or the names of sensors that are;"
-        " none: a table of one cell. |",
+        "| `excited` | expression |  | Where the behavior is excited; by default always. |",
         "| `steps` | whole number, 1 to 10,000,000 | required | Steps of an episode at most. |",
     ],
 )

@@ -66,7 +66,8 @@ def test_what_is_no_path_and_value(argument: str) -> None:
 
 @pytest.mark.parametrize(
     ("argument", "column"),
-    [("enviroment.steps=3", 1), ("environment.step=3", 13), ("design.coevolution.generation=3", 20), ("reward.neer=3", 8),
+    [("enviroment.steps=3", 1), ("environment.step=3", 13), ("design.coevolution.generation=3", 20),
+     ("reward.neer=3", 8),
      ("structure[1]=stop", 11), ("behaviors.stop.rules[0].wen=3", 25),
      ("environment.steps.x=3", 19), ("name[0]=x", 6),
      ("reward[0]=3", 8), ("behaviors.go.rules=null", 11)],

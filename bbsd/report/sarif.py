@@ -1,0 +1,65 @@
+"""Diagnoses as SARIF 2.1.0, the exchange format of tools that check code."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+from bbsd.errors import KINDS
+from bbsd.report.github import message
+from bbsd.version import __version__
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bbsd.errors import Diagnosis, Kind, Place
+
+SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+RULES = tuple(KINDS)
+"""Codes in the order in which a log describes them."""
+
+
+def sarif_log(diagnoses: Iterable[Diagnosis]) -> dict[str, Any]:
+    """Return a log of one run as plain data."""
+    driver = {"name": "bbsd", "version": __version__, "rules": [_rule(kind) for kind in KINDS.values()]}
+    run = {
+        "tool": {"driver": driver},
+        "columnKind": "unicodeCodePoints",
+        "results": [_result(each) for each in diagnoses],
+    }
+    return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+
+
+def _rule(kind: Kind) -> dict[str, Any]:
+    return {
+        "id": kind.code,
+        "shortDescription": {"text": kind.title},
+        "fullDescription": {"text": kind.explanation},
+        "help": {"text": f"Such as:\n\n{kind.example}\n\nInstead:\n\n{kind.mend}"},
+    }
+
+
+def _result(diagnosis: Diagnosis) -> dict[str, Any]:
+    return {
+        "ruleId": diagnosis.code,
+        "ruleIndex": RULES.index(diagnosis.code),
+        "level": "error",
+        "message": {"text": message(diagnosis)},
+        "locations": [{"physicalLocation": _location(diagnosis.place)}],
+    }
+
+
+def _location(place: Place) -> dict[str, Any]:
+    region = {
+        "startLine": place.line,
+        "startColumn": place.column,
+        "endColumn": place.column + place.length,
+    }
+    return {"artifactLocation": {"uri": _uri(place.file)}, "region": region}
+
+
+def _uri(file: str) -> str:
+    """Return a file as a URI reference, relative where the file is."""
+    path = Path(file)
+    return path.as_uri() if path.is_absolute() else quote(path.as_posix())
