@@ -35,6 +35,8 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import run as runs
 from bbsd.solver.folder import Folder, Identity, identity, new_folder, old_folder
 from bbsd.solver.interruption import interrupts_noted
+from bbsd.solver.price import Price
+from bbsd.solver.price import price as price_of
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.spec.loading import Loaded
@@ -207,9 +209,7 @@ def design(
     """
     began = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = compile_meaning(loaded.meaning, lanes=lanes)
-    if not problem.has_holes:
-        raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
+    problem = _with_holes(loaded, lanes)
     who = identity(loaded.source.text, tuple(overrides), seed, runs)
     folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
     with _reward_at_its_place(loaded), interrupts_noted():
@@ -226,6 +226,23 @@ def design(
     return Designed(
         folder.architecture, folder.path, names, judged.evaluation, judged.lifetime, judged.random, seconds
     )
+
+
+def price(
+    spec: Spec, *, seed: int = 0, runs: int = 1, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()
+) -> Price:
+    """What `design` would cost, from a sample of its episodes; raises as `design`, and writes nothing."""
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = _with_holes(loaded, lanes)
+    with _reward_at_its_place(loaded):
+        return price_of(problem, settings_of(loaded.meaning), seed, runs)
+
+
+def _with_holes(loaded: Loaded, lanes: int) -> Problem:
+    problem = compile_meaning(loaded.meaning, lanes=lanes)
+    if not problem.has_holes:
+        raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
+    return problem
 
 
 def designed_text(

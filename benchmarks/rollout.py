@@ -35,7 +35,8 @@ class Peer:
 
 
 PEERS = (
-    Peer("C, scalar, libm's arctangent", "by_c", "prepare_scalar", asked=0.14),
+    Peer("C, scalar, as the spec says it", "by_c", "prepare_scalar", asked=0.14),
+    Peer("C, scalar, tuned by hand", "by_c", "prepare_tuned"),
     Peer("C, explicit SIMD, the same arctangent", "by_c", "prepare_simd", asked=1.25),
     Peer("Numba, one agent at a time", "by_numba"),
     Peer("NumPy in lock-step", "by_numpy", asked=1 / 15),

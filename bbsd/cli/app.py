@@ -9,6 +9,7 @@ from bbsd.cli.check import check
 from bbsd.cli.compile import compile_
 from bbsd.cli.config import config
 from bbsd.cli.design import design
+from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.explain import explain
 from bbsd.cli.fmt import fmt
@@ -34,6 +35,7 @@ app.command()(fmt)
 app.command()(config)
 app.command("compile")(compile_)
 app.command()(schema)
+app.command()(doctor)
 
 
 def _show_version(wanted: bool) -> None:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from bbsd.cli.mistakes import MISTAKE, diagnoses_text
+from bbsd.cli.options import spec_files
 from bbsd.cli.output import has_color, show
 from bbsd.errors import KINDS, Diagnosis, SpecError, describe, did_you_mean, render_json
 from bbsd.report.numbers import count
@@ -26,7 +27,10 @@ class Format(StrEnum):
 
 def check(
     specs: Annotated[
-        list[Path] | None, typer.Argument(metavar="SPEC...", help="Specs, YAML files.", show_default=False)
+        list[Path] | None,
+        typer.Argument(
+            metavar="SPEC...", help="Specs, YAML files.", show_default=False, autocompletion=spec_files
+        ),
     ] = None,
     form: Annotated[Format, typer.Option("--format", help="How to print it.")] = Format.TEXT,
     code: Annotated[

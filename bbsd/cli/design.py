@@ -15,6 +15,7 @@ from bbsd.report.plain import design_plain, json_text
 
 if TYPE_CHECKING:
     from bbsd.api import Designed
+    from bbsd.solver.price import Price
 
 INTERRUPTED = 130
 
@@ -33,6 +34,9 @@ def design(
     lanes: Lanes = 40,
     overrides: Overrides = None,
     as_json: AsJson = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Only say what the design would cost; write nothing.")
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing of the progress.")] = False,
 ) -> None:
     """Fill the holes of a spec.
@@ -43,6 +47,11 @@ def design(
     from bbsd import api
     from bbsd.report.progress import progress
 
+    if dry_run:
+        _show_price(
+            api.price(spec, seed=seed, runs=runs, lanes=lanes, overrides=overrides or ()), as_json=as_json
+        )
+        return
     try:
         with progress(error_console(), quiet=quiet) as listener:
             designed = api.design(
@@ -60,6 +69,12 @@ def design(
         raise typer.Exit(INTERRUPTED) from None
     _draw_curves(designed)
     _show(designed, seed, runs, as_json=as_json)
+
+
+def _show_price(price: "Price", *, as_json: bool) -> None:
+    from bbsd.report.price import price_plain, price_text
+
+    show(json_text(price_plain(price)) if as_json else price_text(price))
 
 
 def _resuming(folder: Path) -> str:

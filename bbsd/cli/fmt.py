@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from bbsd.cli.mistakes import told
+from bbsd.cli.options import spec_files
 from bbsd.cli.output import say, show
 from bbsd.errors import SpecError, escape
 
@@ -19,7 +20,10 @@ WOULD_CHANGE = 1
 
 def fmt(
     specs: Annotated[
-        list[Path], typer.Argument(metavar="SPEC...", help="Specs, YAML files.", show_default=False)
+        list[Path],
+        typer.Argument(
+            metavar="SPEC...", help="Specs, YAML files.", show_default=False, autocompletion=spec_files
+        ),
     ],
     check: Annotated[
         bool, typer.Option("--check", help="Write nothing; leave with 1 if a file would change.")

@@ -1,5 +1,6 @@
 """`bbsd new`."""
 
+import shlex
 from collections.abc import Iterator
 from enum import StrEnum
 from importlib.resources import files
@@ -8,10 +9,12 @@ from typing import Annotated
 
 import typer
 
+from bbsd.cli.options import SUFFIXES
 from bbsd.cli.output import say, show
-from bbsd.errors import UsageError
+from bbsd.errors import UsageError, escape
 
-SUFFIXES = {".yaml", ".yml"}
+
+LONGEST_NAME = 100
 
 
 class Template(StrEnum):
@@ -68,11 +71,11 @@ def _write(path: Path, template: Template) -> None:
     from bbsd.text import Source, read, replace_blocks
 
     document = read(Source(template, template_text(template)))
-    _create(path, replace_blocks(document, {("name",): path.stem}))
+    _create(path, replace_blocks(document, {("name",): path.stem[:LONGEST_NAME]}))
     schema = path.with_name(SCHEMA_FILE)
     if not schema.exists():
         _create(schema, _schema_text())
-    say(f"{path} is there; next: bbsd design {path}")
+    say(f"{escape(str(path))} is there; next: {escape(shlex.join(['bbsd', 'design', str(path)]))}")
 
 
 def _schema_text() -> str:

@@ -134,6 +134,10 @@ def _unpacked(each: Each, item: Value, scope: Scope) -> dict[str, Value] | None:
 
 def _source(each: Each, scope: Scope, elaborate: Elaborate) -> Sequence[Value] | None:
     match each.source:
+        case Name(name="team" | "others" as name) if scope.alone:
+            message = f"a behavior knows only its own robot, so there is no {name} here"
+            scope.mistake("BB066", message, each.source.span, "make a sensor of it and use that")
+            return None
         case Name(name="team"):
             return [scope.graph.number(robot) for robot in range(scope.robots)]
         case Name(name="others"):

@@ -10,7 +10,16 @@ from bbsd.errors import did_you_mean
 from bbsd.expression.checks import has_arguments, of_kind
 from bbsd.expression.graph import Kind, Node, value_of
 from bbsd.expression.picking import pick
-from bbsd.expression.scope import Deferred, Definition, PerRobot, Scope, Shared, Unusable, Value
+from bbsd.expression.scope import (
+    Deferred,
+    Definition,
+    Findings,
+    PerRobot,
+    Scope,
+    Shared,
+    Unusable,
+    Value,
+)
 from bbsd.expression.tree import Call, Expr, Index, Name, Number, Unary
 from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
 from bbsd.kernel.functions import clamp_index
@@ -34,7 +43,7 @@ def name_value(expr: Name, scope: Scope, elaborate: Elaborate) -> Value:
         case PerRobot(value=of_robot) if scope.robot is not None:
             return of_robot(scope.robot)
         case Definition(parameters=()) as definition:
-            return _definition(name, definition, (), scope, elaborate)
+            return _definition(expr, definition, (), scope, elaborate)
     return _without_value(expr, scope)
 
 
@@ -69,17 +78,25 @@ def call_definition(expr: Call, definition: Definition, scope: Scope, elaborate:
     if not has_arguments(expr, len(definition.parameters), scope):
         return scope.graph.unknown
     arguments = tuple(elaborate(argument, scope) for argument in expr.arguments)
-    return _definition(expr.function, definition, arguments, scope, elaborate)
+    return _definition(expr, definition, arguments, scope, elaborate)
 
 
 def _definition(
-    name: str, definition: Definition, arguments: tuple[Value, ...], scope: Scope, elaborate: Elaborate
+    use: Name | Call, definition: Definition, arguments: tuple[Value, ...], scope: Scope, elaborate: Elaborate
 ) -> Value:
+    name = use.name if isinstance(use, Name) else use.function
     key = (name, scope.robot, arguments)
     if key not in scope.memo:
         local = dict(zip(definition.parameters, arguments, strict=True))
-        inner = replace(scope, path=definition.path, local=local, draws=None)
+        findings = Findings() if scope.alone else scope.findings
+        inner = replace(scope, path=definition.path, local=local, draws=None, findings=findings)
         scope.memo[key] = elaborate(definition.expression, inner)
+        if scope.alone and any(mistake.code == "BB066" for _, mistake in findings.mistakes):
+            message = f"{name} depends on other robots or the world, which a behavior does not know"
+            scope.memo[key] = scope.mistake("BB066", message, use.span, "make a sensor of it and use that")
+        elif scope.alone:
+            scope.findings.wholes += findings.wholes
+            scope.findings.mistakes.update(findings.mistakes)
     return scope.memo[key]
 
 
@@ -103,6 +120,9 @@ def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -
     if not isinstance(of, Name) or of.name in scope.local:
         return None
     found = scope.names.get(of.name)
+    if scope.alone and isinstance(found, PerRobot | Definition) and not _is_list(of, scope, elaborate):
+        message = "a behavior knows only its own robot; what others do must be sensed"
+        return (scope.mistake("BB066", message, of.span, "make a sensor of it and use that"),)
     if not (isinstance(found, PerRobot) or (isinstance(found, Definition) and not found.parameters)):
         return None
     values: list[Value] = [scope.graph.unknown] * scope.robots
@@ -114,13 +134,19 @@ def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -
     return tuple(values)
 
 
+def _is_list(of: Name, scope: Scope, elaborate: Elaborate) -> bool:
+    return isinstance(name_value(of, scope, elaborate), tuple)
+
+
 def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> Value:
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
     if _is_plain(at) and not 0 <= value_of(chosen) < len(items):
         message = f"there is no element {value_of(chosen):g}; the {len(items)} count from 0"
         return scope.mistake("BB057", message, at.span)
-    if not chosen.literal and len({len(item) if isinstance(item, tuple) else -1 for item in items}) > 1:
+    if not chosen.literal and len({_shape(item) for item in items}) > 1:
+        if any(isinstance(item, Node) and item.kind is Kind.UNKNOWN for item in items):
+            return scope.graph.unknown
         message = "rows of different lengths can only be indexed by a plain number"
         return scope.mistake("BB057", message, at.span)
     scope.findings.wholes.append((scope.path, at.span, "an index", chosen))
@@ -130,3 +156,8 @@ def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> 
 def _is_plain(at: Expr) -> bool:
     """Whether an index is written as a number."""
     return isinstance(at, Number) or (isinstance(at, Unary) and isinstance(at.operand, Number))
+
+
+def _shape(value: Value) -> tuple[object, ...] | None:
+    """What two lists have in common if they differ only in their numbers."""
+    return tuple(_shape(item) for item in value) if isinstance(value, tuple) else None

@@ -101,6 +101,8 @@ class Scope:
     robots: int = 1
     robot: int | None = None
     """None where the team is meant."""
+    alone: bool = False
+    """For a behavior, which knows only its own robot: what others do must be sensed."""
     path: Path = ()
     local: Mapping[str, Value] = field(default_factory=dict)
     before: Scope | None = None

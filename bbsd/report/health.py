@@ -24,14 +24,16 @@ bbsd: 1
 name: known
 environment:
   steps: 3
-  state: {x: uniform(0, 1)}
-  dynamics: {x: exp(sin(x)) / 2}
+  state:
+    x: uniform(0, 1)
+  dynamics:
+    x: exp(sin(x)) / 2
 behaviors:
-  wait: {actions: {stay: {x: x}}, rules: [{otherwise: stay}]}
+  wait: {actions: {stay: {x: x}}, rules: [otherwise: stay]}
 structure: [wait]
 reward: {height: x}
 """
-KNOWN_RETURN = "0x0.0p+0"
+KNOWN_RETURN = "0x1.a5c721413da6ep+1"
 """What the spec's first episode earns by the streams of key 0, on every machine."""
 
 
@@ -87,13 +89,17 @@ def _compiler() -> Finding:
     given = {name: value for name, value in sorted(os.environ.items()) if name.startswith("NUMBA_")}
     value = ", ".join(f"{name}={value}" for name, value in given.items()) or "numba as it comes"
     if given.get("NUMBA_DISABLE_JIT", "0") not in ("0", ""):
-        return Finding("compiler", value, "nothing is compiled, and designs take hours: unset NUMBA_DISABLE_JIT")
+        return Finding(
+            "compiler", value, "nothing is compiled, and designs take hours: unset NUMBA_DISABLE_JIT"
+        )
     return Finding("compiler", value)
 
 
 def _cache(root: Path) -> Finding:
     if not (usable(root) and usable(root / "kernels") and usable(root / "compiled")):
-        advice = f"set {CACHE_VARIABLE} to a folder that only you can write; without it each command compiles anew"
+        advice = (
+            f"set {CACHE_VARIABLE} to a folder that only you can write; without it each command compiles anew"
+        )
         return Finding("cache", str(root), f"it cannot be used: {advice}")
     files = [path for path in root.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
@@ -107,7 +113,9 @@ def _self_check() -> Finding:
     except Exception as error:  # noqa: BLE001 - whatever is wrong with an installation is to be told
         return Finding("self-check", "failed", f"{type(error).__name__}: {error}")
     if found != KNOWN_RETURN:
-        return Finding("self-check", found, f"an episode should earn {KNOWN_RETURN}: designs differ from others'")
+        return Finding(
+            "self-check", found, f"an episode should earn {KNOWN_RETURN}: designs differ from others'"
+        )
     return Finding("self-check", "an episode earns what it should, to the last bit")
 
 

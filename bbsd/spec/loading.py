@@ -16,6 +16,8 @@ from bbsd.text import read
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from pydantic_core import ErrorDetails
+
     from bbsd.errors import Place
     from bbsd.spec.models import Spec
     from bbsd.spec.overrides import Override
@@ -67,16 +69,15 @@ def _examined(data: Data, seed: int) -> tuple[Spec | None, Meaning | None, list[
     if spec:
         meaning, told = mean(spec, seed)
         return spec, meaning, list(told)
+    return None, None, [*form_mistakes(errors, data), *_mistakes_in_the_rest(data, errors, seed)]
+
+
+def _mistakes_in_the_rest(data: Data, errors: Sequence[ErrorDetails], seed: int) -> list[Told]:
     rest = rest_of(data, errors)
-    told = mean(rest.spec, seed, rest.broken)[1] if rest else ()
-    return (
-        None,
-        None,
-        [
-            *form_mistakes(errors, data),
-            *((path, mistake) for path, mistake in told if rest and mistake.code not in rest.dependent),
-        ],
-    )
+    if rest is None:
+        return []
+    _, told = mean(rest.spec, seed, rest.broken)
+    return [(path, mistake) for path, mistake in told if mistake.code not in rest.dependent]
 
 
 def _diagnoses(

@@ -16,7 +16,7 @@ from bbsd.spec.models import Spec
 from bbsd.spec.written import kind_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Sequence
 
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
@@ -98,11 +98,10 @@ def _guess(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:
     return next((location for location in missing if f'"{location[-1]}"' in hint), None)
 
 
-def _uses(error: ErrorDetails, names: Collection[str]) -> bool:
+def _uses(error: ErrorDetails, names: frozenset[str]) -> bool:
     """Whether an expression fails only because of a name that was told of already."""
-    return error["type"] == "expression" and not set(re.findall(r"\w+", str(error["input"]))).isdisjoint(
-        names
-    )
+    words = re.findall(r"\w+", str(error["input"]))
+    return error["type"] == "expression" and not names.isdisjoint(words)
 
 
 def _mistake(error: ErrorDetails, data: Data) -> Mistake:

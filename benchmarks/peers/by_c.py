@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.lifting import BEHAVIORS, Lived
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from benchmarks.lifting import Workload
 
@@ -22,8 +22,13 @@ OPTIONS = ("-O3", "-march=native", "-ffp-contract=off", "-shared", "-fPIC")
 
 
 def prepare_scalar(workload: Workload) -> Callable[[], Lived]:
-    """One episode at a time with libm's arctangent."""
+    """One episode at a time with libm's hypot and arctangent."""
     return _prepare("scalar.c", workload)
+
+
+def prepare_tuned(workload: Workload) -> Callable[[], Lived]:
+    """The same with a plain square root and a table of roots."""
+    return _prepare("scalar.c", workload, "-DTUNED")
 
 
 def prepare_simd(workload: Workload) -> Callable[[], Lived]:
@@ -31,8 +36,8 @@ def prepare_simd(workload: Workload) -> Callable[[], Lived]:
     return _prepare("simd.c", workload)
 
 
-def _prepare(source: str, workload: Workload) -> Callable[[], Lived]:
-    lift = _compiled(Path(__file__).with_name(source)).lift
+def _prepare(source: str, workload: Workload, *options: str) -> Callable[[], Lived]:
+    lift = _compiled(Path(__file__).with_name(source), options).lift
     returns, credit = np.empty(len(workload)), np.empty((len(workload), BEHAVIORS + 1))
     arrays = (workload.heights, workload.tables, workload.structures, returns, credit)
     arguments = [ctypes.c_int64(len(workload)), *(ctypes.c_void_p(array.ctypes.data) for array in arrays)]
@@ -44,7 +49,7 @@ def _prepare(source: str, workload: Workload) -> Callable[[], Lived]:
     return live
 
 
-def _compiled(source: Path) -> ctypes.CDLL:
+def _compiled(source: Path, options: Sequence[str]) -> ctypes.CDLL:
     """Raises OSError where there is no gcc or the machine lacks what the source needs."""
     compiler = shutil.which("gcc")
     if compiler is None:
@@ -52,7 +57,7 @@ def _compiled(source: Path) -> ctypes.CDLL:
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder) / "lift.so"
         done = subprocess.run(
-            [compiler, *OPTIONS, str(source), "-o", str(library), "-lm"],
+            [compiler, *OPTIONS, *options, str(source), "-o", str(library), "-lm"],
             check=False,
             capture_output=True,
             text=True,

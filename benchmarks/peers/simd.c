@@ -1,8 +1,10 @@
-/* The lifting task with explicit vectors, a lane an agent, as many at a time as a vector holds; bbsd's arctangent. */
+/* The lifting task with explicit vectors, a lane an agent, and bbsd's arctangent.
+   Each phase of a step is done for several vectors before the next: short loops, so that the processor works on
+   one vector while it waits for another. */
 #include <math.h>
 #include "lanes.h"
 
-enum { STEPS = 300, ROBOTS = 3, BEHAVIORS = 5, CELLS = 6 };
+enum { STEPS = 300, ROBOTS = 3, BEHAVIORS = 5, CELLS = 6, VECTORS = 5, BATCH = VECTORS * WIDTH };
 enum { PUSH_MORE, DO_NOT_GO_FAST, STOP_AT_GOAL, HURRY_UP, SLOW_DOWN, NOBODY };
 
 #define SPEED_STEP ALL(1)
@@ -13,7 +15,8 @@ enum { PUSH_MORE, DO_NOT_GO_FAST, STOP_AT_GOAL, HURRY_UP, SLOW_DOWN, NOBODY };
 
 typedef struct {
     Numbers height[ROBOTS], speed[ROBOTS], tilt, total, credit[BEHAVIORS + 1];
-    Words table[BEHAVIORS], priority[BEHAVIORS];
+    Numbers slope, before;
+    Words table[BEHAVIORS], priority[BEHAVIORS], action[ROBOTS];
 } Lanes;
 
 /* The same in memory, a row a vector. */
@@ -38,14 +41,19 @@ static inline Numbers arctangent(Numbers x) {
     return base + (t + (t * (z * p) + rest));
 }
 
-static inline Numbers tilt_of(const Numbers *height) {
+static inline Numbers slope_of(const Numbers *height) {
     Numbers sideways = (height[2] - height[1]) / ALL(sqrt(3));
     Numbers forward = (height[0] - (height[1] + height[2]) * ALL(0.5)) / ALL(1.5);
-    return arctangent(ROOT(sideways * sideways + forward * forward)) * ALL(57.29577951308232);
+    return ROOT(sideways * sideways + forward * forward);
+}
+
+static inline void sense(Lanes *lanes) {
+    lanes->before = lanes->tilt;
+    lanes->tilt = arctangent(lanes->slope) * ALL(57.29577951308232);
 }
 
 /* The highest priority among the activated behaviors; its lowest bits are the behavior's number and one. */
-static inline Words decide(const Lanes *lanes, int robot, Words tilted, Numbers lowest, Numbers highest) {
+static inline Words action_of(const Lanes *lanes, int robot, Words tilted, Numbers lowest, Numbers highest) {
     Numbers height = lanes->height[robot], speed = lanes->speed[robot];
     Words place = WORD(EQUAL(height, lowest), WHOLE(0), WORD(EQUAL(height, highest), WHOLE(2), WHOLE(4)));
     Words cell = PLUS(place, tilted), pace = TRUNCATED(GREATER(LESSER(speed, ALL(5)), ZERO));
@@ -58,12 +66,31 @@ static inline Words decide(const Lanes *lanes, int robot, Words tilted, Numbers 
     return BOTH_BITS(best, WHOLE(7));
 }
 
-static inline Numbers speed_after(Numbers speed, const Truths *controls) {
-    Numbers more = speed + SPEED_STEP, next = PICK(controls[PUSH_MORE], more, speed);
-    next = PICK(controls[DO_NOT_GO_FAST], LESSER(speed, TOP_SPEED), next);
-    next = PICK(controls[STOP_AT_GOAL], ZERO, next);
-    next = PICK(controls[HURRY_UP], LESSER(more, TOP_SPEED), next);
-    return PICK(controls[SLOW_DOWN], GREATER(speed - SPEED_STEP, ZERO), next);
+static inline void decide(Lanes *lanes) {
+    const Numbers *height = lanes->height;
+    Numbers lowest = LESSER(LESSER(height[0], height[1]), height[2]);
+    Numbers highest = GREATER(GREATER(height[0], height[1]), height[2]);
+    Words tilted = WORD(BELOW(SMALL_TILT, lanes->tilt), WHOLE(1), WHOLE(0));
+    for (int robot = 0; robot < ROBOTS; robot++)
+        lanes->action[robot] = action_of(lanes, robot, tilted, lowest, highest);
+}
+
+static inline Truths controls(const Lanes *lanes, int robot, int behavior) {
+    return SAME(lanes->action[robot], WHOLE(behavior == NOBODY ? 0 : behavior + 1));
+}
+
+static inline void act(Lanes *lanes) {
+    for (int robot = 0; robot < ROBOTS; robot++) {
+        Numbers speed = lanes->speed[robot], more = speed + SPEED_STEP;
+        Numbers next = PICK(controls(lanes, robot, PUSH_MORE), more, speed);
+        next = PICK(controls(lanes, robot, DO_NOT_GO_FAST), LESSER(speed, TOP_SPEED), next);
+        next = PICK(controls(lanes, robot, STOP_AT_GOAL), ZERO, next);
+        next = PICK(controls(lanes, robot, HURRY_UP), LESSER(more, TOP_SPEED), next);
+        next = PICK(controls(lanes, robot, SLOW_DOWN), GREATER(speed - SPEED_STEP, ZERO), next);
+        lanes->speed[robot] = next;
+        lanes->height[robot] += next * ALL(0.005);
+    }
+    lanes->slope = slope_of(lanes->height);
 }
 
 static inline Numbers earned_by(Numbers height, Numbers speed, Numbers together) {
@@ -72,29 +99,14 @@ static inline Numbers earned_by(Numbers height, Numbers speed, Numbers together)
     return earned + PICK(BELOW(TOP_SPEED, SIZE(speed)), ALL(-0.1), ZERO);
 }
 
-static inline void advance(Lanes *lanes, Numbers root) {
-    Numbers *height = lanes->height, *speed = lanes->speed, before = lanes->tilt, earned[ROBOTS];
-    Numbers lowest = LESSER(LESSER(height[0], height[1]), height[2]);
-    Numbers highest = GREATER(GREATER(height[0], height[1]), height[2]);
-    Words tilted = WORD(BELOW(SMALL_TILT, before), WHOLE(1), WHOLE(0));
-    Truths controls[ROBOTS][BEHAVIORS + 1];
-    for (int robot = 0; robot < ROBOTS; robot++) {
-        Words action = decide(lanes, robot, tilted, lowest, highest);
-        for (int behavior = 0; behavior < BEHAVIORS; behavior++)
-            controls[robot][behavior] = SAME(action, WHOLE(behavior + 1));
-        controls[robot][NOBODY] = SAME(action, WHOLE(0));
-    }
-    for (int robot = 0; robot < ROBOTS; robot++) {
-        speed[robot] = speed_after(speed[robot], controls[robot]);
-        height[robot] += speed[robot] * ALL(0.005);
-    }
-    lanes->tilt = tilt_of(height);
-    Numbers leveling = PICK(BELOW(lanes->tilt - before, ALL(-0.5)), ALL(1), ALL(-0.1));
+static inline void reward(Lanes *lanes, Numbers root) {
+    Numbers earned[ROBOTS];
+    Numbers leveling = PICK(BELOW(lanes->tilt - lanes->before, ALL(-0.5)), ALL(1), ALL(-0.1));
     Numbers level = PICK(BELOW(lanes->tilt, SMALL_TILT), ALL(1) / root, ALL(-0.1) * root);
     for (int robot = 0; robot < ROBOTS; robot++) {
-        earned[robot] = earned_by(height[robot], speed[robot], leveling + level);
+        earned[robot] = earned_by(lanes->height[robot], lanes->speed[robot], leveling + level);
         for (int behavior = 0; behavior <= BEHAVIORS; behavior++)
-            lanes->credit[behavior] = ADDED(lanes->credit[behavior], controls[robot][behavior], earned[robot]);
+            lanes->credit[behavior] = ADDED(lanes->credit[behavior], controls(lanes, robot, behavior), earned[robot]);
     }
     lanes->total += earned[0] + earned[1] + earned[2];
 }
@@ -109,37 +121,51 @@ static void set(Rows *rows, int lane, const double *height, const uint8_t *table
     }
 }
 
-static void live(Rows *rows) {
-    Lanes lanes;
-    for (int robot = 0; robot < ROBOTS; robot++) {
-        lanes.height[robot] = LOAD(rows->height[robot]);
-        lanes.speed[robot] = ZERO;
-    }
+static void pick_up(Lanes *lanes, const Rows *rows) {
+    *lanes = (Lanes){0};
+    for (int robot = 0; robot < ROBOTS; robot++) lanes->height[robot] = LOAD(rows->height[robot]);
     for (int behavior = 0; behavior < BEHAVIORS; behavior++) {
-        lanes.table[behavior] = LOAD_WORDS(rows->table[behavior]);
-        lanes.priority[behavior] = LOAD_WORDS(rows->priority[behavior]);
+        lanes->table[behavior] = LOAD_WORDS(rows->table[behavior]);
+        lanes->priority[behavior] = LOAD_WORDS(rows->priority[behavior]);
     }
-    for (int behavior = 0; behavior <= BEHAVIORS; behavior++) lanes.credit[behavior] = ZERO;
-    lanes.total = ZERO;
-    lanes.tilt = tilt_of(lanes.height);
-    for (int step = 1; step <= STEPS; step++) advance(&lanes, ALL(sqrt(step)));
-    STORE(rows->total, lanes.total);
-    for (int behavior = 0; behavior <= BEHAVIORS; behavior++) STORE(rows->credit[behavior], lanes.credit[behavior]);
+    lanes->slope = slope_of(lanes->height);
+    sense(lanes);
+}
+
+static void lay_down(const Lanes *lanes, Rows *rows) {
+    STORE(rows->total, lanes->total);
+    for (int behavior = 0; behavior <= BEHAVIORS; behavior++) STORE(rows->credit[behavior], lanes->credit[behavior]);
+}
+
+#define EACH(phase) for (int vector = 0; vector < VECTORS; vector++) phase
+
+static void live(Rows *rows) {
+    Lanes lanes[VECTORS];
+    EACH(pick_up(&lanes[vector], &rows[vector]));
+    for (int step = 1; step <= STEPS; step++) {
+        Numbers root = ALL(sqrt(step));
+        EACH(decide(&lanes[vector]));
+        EACH(act(&lanes[vector]));
+        EACH(sense(&lanes[vector]));
+        EACH(reward(&lanes[vector], root));
+    }
+    EACH(lay_down(&lanes[vector], &rows[vector]));
 }
 
 void lift(int64_t agents, const double *heights, const uint8_t *tables, const int64_t *structures, double *returns,
           double *credit) {
-    for (int64_t base = 0; base < agents; base += WIDTH) {
-        Rows rows = {0};
-        int64_t count = agents - base < WIDTH ? agents - base : WIDTH;
+    for (int64_t base = 0; base < agents; base += BATCH) {
+        Rows rows[VECTORS] = {0};
+        int64_t count = agents - base < BATCH ? agents - base : BATCH;
         for (int64_t lane = 0; lane < count; lane++)
-            set(&rows, (int)lane, heights + (base + lane) * ROBOTS, tables + (base + lane) * BEHAVIORS * CELLS,
-                structures + (base + lane) * BEHAVIORS);
-        live(&rows);
+            set(&rows[lane / WIDTH], (int)(lane % WIDTH), heights + (base + lane) * ROBOTS,
+                tables + (base + lane) * BEHAVIORS * CELLS, structures + (base + lane) * BEHAVIORS);
+        live(rows);
         for (int64_t lane = 0; lane < count; lane++) {
-            returns[base + lane] = rows.total[lane] / ROBOTS;
+            const Rows *own = &rows[lane / WIDTH];
+            returns[base + lane] = own->total[lane % WIDTH] / ROBOTS;
             for (int behavior = 0; behavior <= BEHAVIORS; behavior++)
-                credit[(base + lane) * (BEHAVIORS + 1) + behavior] = rows.credit[behavior][lane] / ROBOTS;
+                credit[(base + lane) * (BEHAVIORS + 1) + behavior] = own->credit[behavior][lane % WIDTH] / ROBOTS;
         }
     }
 }

@@ -11,6 +11,7 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Node
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name
+from bbsd.spec.meaning.names import alone
 from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
 from bbsd.spec.meaning.rules import Table, table
 from bbsd.spec.written import Expression
@@ -18,7 +19,7 @@ from bbsd.spec.written import Expression
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from bbsd.expression.scope import Path
+    from bbsd.expression.scope import Path, Scope
     from bbsd.spec.meaning.names import Moment, Names
     from bbsd.spec.models import Behavior, PartitionText
 
@@ -48,15 +49,15 @@ class Module:
 
 def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]) -> Module | None:
     """The meaning of a behavior at the decision; None where its inputs could not be understood."""
-    names, path = decision.names, ("behaviors", name)
-    excited = tuple(_excited(written, decision, (*path, "excited"), robot) for robot in names.robots)
+    names, path, own = decision.names, ("behaviors", name), alone(decision)
+    excited = tuple(_excited(written, own, (*path, "excited"), robot) for robot in names.robots)
     actions = {
-        action: _action(sets, decision, (*path, "actions", action), kinds)
+        action: _action(sets, names, own, (*path, "actions", action), kinds)
         for action, sets in written.actions.items()
     }
     if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
         names.findings.tell((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
-    per_robot = [_inputs(written, decision, (*path, "inputs"), robot) for robot in names.robots]
+    per_robot = [_inputs(written, decision, own, (*path, "inputs"), robot) for robot in names.robots]
     inputs = {key: found.cells for key, found in per_robot[0].items()}
     if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
         message, advice = f"this table would have more than {MAX_CELLS} cells", "cut the inputs more coarsely"
@@ -70,17 +71,16 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
     return Module(name, inputs, cells, excited, actions, given)
 
 
-def _excited(written: Behavior, decision: Moment, path: Path, robot: int) -> Node:
+def _excited(written: Behavior, own: Scope, path: Path, robot: int) -> Node:
     if written.excited is None:
-        return decision.names.graph.truth(value=True)
-    return elaboration.truth(written.excited.tree, decision.scope.at(path, robot))
+        return own.graph.truth(value=True)
+    return elaboration.truth(written.excited.tree, own.at(path, robot))
 
 
 def _action(
-    sets: Mapping[str, Expression], decision: Moment, path: Path, kinds: Mapping[str, Kind]
+    sets: Mapping[str, Expression], names: Names, own: Scope, path: Path, kinds: Mapping[str, Kind]
 ) -> dict[str, tuple[Node, ...]]:
     """What an action sets, for each robot; only the robot's own state can be set."""
-    names = decision.names
     meant = {}
     for target, written in sets.items():
         here = (*path, target)
@@ -90,9 +90,9 @@ def _action(
                 names.findings.tell(here, "BB033", message, KEY, advice)
             continue
         read = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
-        meant[target] = tuple(
-            read(written.tree, decision.scope.at(here, robot, draws=True)) for robot in names.robots
-        )
+        values = tuple(read(written.tree, own.at(here, robot, draws=True)) for robot in names.robots)
+        if target not in names.unusable:
+            meant[target] = values
     return meant
 
 
@@ -110,10 +110,10 @@ def _not_state(target: str, names: Names) -> str:
     return f'"{target}" is not state{did_you_mean(target, environment.state)}'
 
 
-def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict[str, Partition]:
+def _inputs(written: Behavior, decision: Moment, own: Scope, path: Path, robot: int) -> dict[str, Partition]:
     """A robot's partitions by input, without those that could not be understood."""
     if isinstance(written.inputs, dict):
-        found = {name: _own(cut, decision, (*path, name), robot) for name, cut in written.inputs.items()}
+        found = {name: _own(cut, decision, own, (*path, name), robot) for name, cut in written.inputs.items()}
     else:
         found = {
             name: _shared(name, decision, (*path, place), robot) for place, name in enumerate(written.inputs)
@@ -124,12 +124,12 @@ def _inputs(written: Behavior, decision: Moment, path: Path, robot: int) -> dict
     return {name: part for name, part in found.items() if part is not None}
 
 
-def _own(cut: PartitionText, decision: Moment, path: Path, robot: int) -> Partition | None:
+def _own(cut: PartitionText, decision: Moment, own: Scope, path: Path, robot: int) -> Partition | None:
     """An input's own partition; the bare name of a sensor that is one stands for that."""
     sensors = decision.names.spec.environment.sensors
     if isinstance(cut, Expression) and isinstance(cut.tree, Name) and cut.tree.name in sensors:
         return _shared(cut.tree.name, decision, path, robot)
-    return partition(cut, decision.scope.at(path, robot), path, robot)
+    return partition(cut, own.at(path, robot), path, robot)
 
 
 def _shared(name: str, decision: Moment, path: Path, robot: int) -> Partition | None:

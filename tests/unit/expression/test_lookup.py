@@ -73,6 +73,8 @@ def test_rows_of_different_lengths_need_a_plain_number() -> None:
     text = "list(list(1, 2), list(3))"
     assert valued(f"{text}[1]") == [3.0]
     assert [code for code, _ in marked(f"{text}[k]")] == ["BB057"]
+    assert [code for code, _ in marked("list(table, list(1, 2))[k]")] == ["BB057"]
+    assert [code for code, _ in marked("list(list(1, 2), lost)[k]")] == ["BB052"]
 
 
 def test_what_is_indexed_must_turn_out_whole() -> None:

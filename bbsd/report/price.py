@@ -1,0 +1,43 @@
+"""What a design will cost, for people and programs."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from bbsd.errors import escape
+from bbsd.report.numbers import count, duration
+
+if TYPE_CHECKING:
+    from bbsd.report.plain import Plain
+    from bbsd.solver.price import Price
+
+
+def price_plain(price: Price) -> dict[str, Plain]:
+    """Return a price as plain data."""
+    return asdict(price)
+
+
+def price_text(price: Price) -> str:
+    """Return a price as lines for people."""
+    layers = f"{count(price.layers, 'layer')}, {price.open_layers} open"
+    rows = {
+        "structure": layers,
+        "search space": f"10^{price.decades:.1f} designs",
+        "episodes": f"{price.episodes:,} lived, and about {price.further_episodes:,} to choose and to judge",
+        "steps": f"{price.steps:,} of robots at most",
+        "memory": f"about {price.bytes / 1e6:,.0f} MB",
+        "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs an episode, "
+        f"{duration(price.compiling)} to compile",
+    }
+    return "\n".join([*_tables(price), "", *(f"{name:<14}{text}" for name, text in rows.items())])
+
+
+def _tables(price: Price) -> list[str]:
+    names = [escape(table.behavior) for table in price.tables]
+    width = max(map(len, (*names, "behavior")))
+    lines = [f"{'behavior':<{width}}   cells    open   actions   designs"]
+    return lines + [
+        f"{name:<{width}} {table.cells:>7,} {table.open_cells:>7,} {table.actions:>9}   10^{table.decades:.1f}"
+        for name, table in zip(names, price.tables, strict=True)
+    ]
