@@ -6,7 +6,7 @@ import time
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -146,7 +146,7 @@ def evaluate(
     *,
     episodes: int = 1000,
     seed: int = 0,
-    fill: str | None = None,
+    fill: Literal["random"] | None = None,
     agents: int = 1000,
     exact: bool = False,
     lanes: int = DEFAULT_LANES,
@@ -219,7 +219,7 @@ def design(
             raise Interrupted(folder.path) from None
     architecture = tidied(problem.meaning, judged.architecture)
     text = designed_text(loaded, problem.meaning, architecture, overrides)
-    folder.architecture.write_text(text, encoding="utf-8")
+    folder.write_architecture(text)
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
     folder.write_note(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
     seconds = time.monotonic() - began

@@ -61,7 +61,7 @@ def evaluate(
         spec,
         episodes=episodes,
         seed=seed,
-        fill=fill,
+        fill="random" if fill else None,
         agents=agents,
         exact=exact,
         lanes=lanes,

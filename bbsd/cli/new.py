@@ -13,7 +13,6 @@ from bbsd.cli.options import SUFFIXES
 from bbsd.cli.output import say, show
 from bbsd.errors import UsageError, escape
 
-
 LONGEST_NAME = 100
 
 

@@ -8,15 +8,19 @@ import typer
 
 
 def spec_files(incomplete: str) -> list[str]:
-    """Return the specs and folders whose path begins as what is typed, for a shell's completion."""
-    folder = Path(incomplete).parent if not incomplete.endswith("/") else Path(incomplete)
+    """Return the specs and folders whose path begins as what is typed, for a shell's completion.
+
+    What is in a folder is added where nothing else is meant: shells put a blank behind what is alone.
+    """
     begun = incomplete[: incomplete.rfind("/") + 1]
     try:
-        found = sorted(folder.iterdir())
+        paths = sorted(Path(begun or ".").iterdir())
     except OSError:
         return []
-    names = [f"{path.name}/" if path.is_dir() else path.name for path in found if _may_be_meant(path)]
-    return [begun + name for name in names if (begun + name).startswith(incomplete)]
+    names = (f"{path.name}/" if path.is_dir() else path.name for path in paths if _may_be_meant(path))
+    found = [begun + name for name in names if (begun + name).startswith(incomplete)]
+    is_alone = len(found) == 1 and found[0].endswith("/")
+    return [*found, *spec_files(found[0])] if is_alone else found
 
 
 def _may_be_meant(path: Path) -> bool:

@@ -38,6 +38,7 @@ class Identity:
     def plain(self) -> dict[str, Any]:
         """As `run.json` holds it."""
         return {
+            "bbsd": __version__,
             "spec_sha256": self.spec_digest,
             "set": list(self.overrides),
             "seed": self.seed,
@@ -84,6 +85,11 @@ class Folder:
         """Keep the spec as it was when the run began."""
         (self.path / "spec.yaml").write_text(text, encoding="utf-8")
 
+    def write_architecture(self, text: str) -> None:
+        """Write the designed spec; one that is there already may have been edited since and is left alone."""
+        if not self.architecture.exists():
+            self.architecture.write_text(text, encoding="utf-8")
+
     def save(self, progress: Progress, line: dict[str, Any] | None) -> None:
         """Note a generation: first its metrics, then the state, so the state never knows more than the metrics."""
         if line is not None:
@@ -113,7 +119,10 @@ class Folder:
         return progress
 
     def lines(self) -> list[dict[str, Any]]:
-        """The metrics so far; a last line that was cut off is left out."""
+        """The metrics so far; a last line that was cut off is left out.
+
+        Raises FolderError for a file that is damaged.
+        """
         if not self.metrics.exists():
             return []
         whole = [
@@ -121,14 +130,16 @@ class Folder:
             for line in self.metrics.read_text(encoding="utf-8").splitlines(keepends=True)
             if line.endswith("\n")
         ]
-        return [json.loads(line) for line in whole]
+        try:
+            return [json.loads(line) for line in whole]
+        except ValueError:
+            raise FolderError(f"{self.metrics} is damaged; remove the folder to start again") from None
 
     def write_note(self, who: Identity, result: dict[str, Any] | None = None) -> None:
         """Write `run.json`; the result is added when there is one."""
         note = {
             "format": FORMAT,
             **who.plain(),
-            "bbsd": __version__,
             "versions": {name: version(name) for name in ("numba", "numpy", "llvmlite")},
             "machine": {
                 "python": platform.python_version(),

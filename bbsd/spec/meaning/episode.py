@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from bbsd.spec.written import Expression
 
 
+MAX_ACTIONS_IN_ALL = 50_000
+"""An action's number, counted over all behaviors, has 16 bits in a kernel."""
+
+
 @dataclass(frozen=True, slots=True)
 class Episode:
     """All that a rollout computes, as nodes.
@@ -57,6 +61,9 @@ def episode(names: Names) -> Episode | None:
     kinds = {name: values[0].kind for name, values in first.items()}
     found = [module(name, each, decision, kinds) for name, each in names.spec.behaviors.items()]
     modules = tuple(each for each in found if each is not None)
+    if sum(len(each.actions) for each in modules) > MAX_ACTIONS_IN_ALL:
+        message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
+        names.findings.tell(("behaviors",), "BB038", message, KEY)
     choices = tuple(names.graph.leaf("choice", robot, Kind.CELL, Level.LANE) for robot in names.robots)
 
     acted = _acted(now, modules, choices, names)

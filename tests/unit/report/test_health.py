@@ -1,0 +1,65 @@
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from bbsd.kernel import modules
+from bbsd.report import health
+
+
+def finding(name):
+    return next(each for each in health.findings() if each.name == name)
+
+
+def test_nothing_is_wrong_here():
+    assert [each for each in health.findings() if each.problem] == []
+
+
+def test_nothing_is_compiled(monkeypatch):
+    monkeypatch.setattr(modules, "_compile", lambda *_: pytest.fail("something is compiled"))
+    assert not finding("self-check").problem
+
+
+def test_another_result_than_everywhere_is_wrong(monkeypatch):
+    monkeypatch.setattr(health, "KNOWN_RETURN", "0x1.0p+0")
+    assert "0x1.0p+0" in finding("self-check").problem
+
+
+def test_a_self_check_that_fails_is_told_of(monkeypatch):
+    monkeypatch.setattr(health, "KNOWN_SPEC", "bbsd: 2\n")
+    assert finding("self-check").problem.startswith("SpecError")
+
+
+def test_a_missing_package_is_wrong_but_for_figures(monkeypatch):
+    def missing(_):
+        raise health.PackageNotFoundError
+
+    monkeypatch.setattr(health, "version", missing)
+    assert finding("numba").problem == "install it: python -m pip install numba"
+    assert not finding("matplotlib").problem
+
+
+def test_numba_that_does_not_compile_is_wrong(monkeypatch):
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    assert finding("compiler").problem
+
+
+def test_a_cache_that_others_can_write_is_wrong(monkeypatch, tmp_path):
+    tmp_path.chmod(0o777)
+    monkeypatch.setenv(modules.CACHE_VARIABLE, str(tmp_path))
+    assert "cannot be used" in finding("cache").problem
+
+
+def test_a_cache_is_where_it_is_said_to_be_and_as_large_as_it_is(monkeypatch, tmp_path):
+    root = tmp_path / "cache"
+    monkeypatch.setenv(modules.CACHE_VARIABLE, str(root))
+    (root / "kernels").mkdir(parents=True, mode=0o700)
+    root.chmod(0o700)
+    (root / "kernels" / "a").write_bytes(bytes(2_000_000))
+    assert finding("cache").value == f"{root}, writable, 1 files, 2.0 MB"
+
+
+def test_a_python_that_is_too_old_is_wrong(monkeypatch):
+    monkeypatch.setattr(sys, "version_info", (3, 10))
+    assert finding("Python").problem

@@ -1,0 +1,60 @@
+"""What a design will cost is counted as the run will count it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from bbsd import api
+from bbsd.report.price import price_plain, price_text
+
+SPEC = Path(__file__).parents[2] / "end_to_end" / "specs" / "thermostat.yaml"
+
+
+@pytest.fixture(scope="module")
+def price():
+    return api.price(SPEC, runs=2)
+
+
+def test_episodes_are_those_of_all_generations_of_all_runs(price):
+    design = api.load(SPEC).spec.design
+    evolved = design.coevolution
+    assert price.episodes == 2 * evolved.generations * evolved.agents * design.learning.episodes
+
+
+def test_steps_are_those_of_all_robots_in_all_episodes(price):
+    environment = api.load(SPEC).spec.environment
+    assert price.steps == (price.episodes + price.further_episodes) * environment.steps * environment.robots
+
+
+def test_the_search_space_is_that_of_all_tables_and_orders(price):
+    tables = sum(table.decades for table in price.tables)
+    assert tables <= price.decades
+    assert [table.behavior for table in price.tables] == [*api.load(SPEC).spec.behaviors]
+
+
+def test_time_grows_with_episodes_and_holds_the_compilation(price):
+    assert price.seconds > price.compiling >= 0
+    lived = (price.episodes + price.further_episodes) * price.microseconds / 1e6
+    assert price.seconds == pytest.approx(price.compiling + lived)
+
+
+def test_nothing_is_written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    api.price(SPEC)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_it_is_told_to_people_and_programs(price):
+    assert json.loads(json.dumps(price_plain(price))) == json.loads(json.dumps(asdict(price)))
+    text = price_text(price)
+    assert f"{price.episodes:,} lived" in text
+    assert all(table.behavior in text for table in price.tables)
+
+
+def test_a_spec_without_holes_has_no_price():
+    with pytest.raises(api.NothingToDesign):
+        api.price(Path(__file__).parents[3] / "specs" / "object_lifting_hand.yaml")
