@@ -23,8 +23,8 @@ unit: $(VENV)/.test
 claims: $(VENV)/.demo
 	$(BIN)/python benchmarks/claims.py
 
-bench: $(VENV)/.demo
-	$(BIN)/python benchmarks/rollout.py
+bench: $(VENV)/.bench
+	$(BIN)/python -m benchmarks
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
@@ -36,6 +36,11 @@ $(VENV)/.demo: $(BIN)/python pyproject.toml
 $(VENV)/.test: $(BIN)/python pyproject.toml
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[test]"
 	touch $@ $(VENV)/.demo
+
+# Peers that cannot be installed are reported as missing.
+$(VENV)/.bench: $(VENV)/.demo
+	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
+	touch $@
 
 clean:
 	rm -rf $(VENV) .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis build *.egg-info

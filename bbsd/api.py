@@ -150,6 +150,7 @@ def evaluate(
     agents: int = 1000,
     exact: bool = False,
     lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
     overrides: Sequence[str] = (),
 ) -> Evaluation:
     """Let the design of a spec live episodes, the same ones for every spec and the same seed.
@@ -159,7 +160,7 @@ def evaluate(
     SpecError.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = compile_meaning(loaded.meaning, lanes=lanes)
+    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
     key = fold(seed_key(seed), EVALUATION)
     with _reward_at_its_place(loaded):
@@ -198,19 +199,21 @@ def design(
     out: str | Path | None = None,
     resume: bool = False,
     lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
     overrides: Sequence[str] = (),
     progress: Callable[[Progress], None] | None = None,
 ) -> Designed:
     """Fill the holes of a spec and write what came of it into a folder.
 
     The same spec, seed, runs and settings give the same bytes of `architecture.yaml` and `metrics.jsonl`,
-    however often the run was stopped and gone on with (`resume`), and for any number of lanes. Raises
+    however often the run was stopped and gone on with (`resume`), and for any number
+    of lanes and of jobs (threads). Raises
     NothingToDesign, SpecError, FolderError, and Interrupted, after which `resume` goes on.
     """
     began = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = _with_holes(loaded, lanes)
-    who = identity(loaded.source.text, tuple(overrides), seed, runs)
+    problem = _with_holes(loaded, lanes, jobs)
+    who = identity(loaded.lineage.flat.source.text, tuple(overrides), seed, runs)
     folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
     with _reward_at_its_place(loaded), interrupts_noted():
         try:
@@ -238,8 +241,8 @@ def price(
         return price_of(problem, settings_of(loaded.meaning), seed, runs)
 
 
-def _with_holes(loaded: Loaded, lanes: int) -> Problem:
-    problem = compile_meaning(loaded.meaning, lanes=lanes)
+def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
+    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
     return problem
@@ -251,7 +254,7 @@ def designed_text(
     """The designer's file with what was set and its holes filled; everything else is as it was."""
     given = {each.path: DELETE if each.value is None else each.value for each in read_overrides(overrides)}
     changes = {**given, **spec_changes(meaning, architecture)}
-    return replace_blocks(loaded.document, changes, after="behaviors")
+    return replace_blocks(loaded.lineage.flat, changes, after="behaviors")
 
 
 def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:
@@ -259,7 +262,7 @@ def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) ->
     if resume:
         return old_folder(out, name, who)
     folder = new_folder(out, name, who.seed)
-    folder.copy_spec(loaded.source.text)
+    folder.copy_spec(loaded.lineage.flat.source.text)
     folder.write_note(who)
     return folder
 
@@ -289,5 +292,5 @@ def _reward_at_its_place(loaded: Loaded) -> Iterator[None]:
     try:
         yield
     except RewardNotFinite as error:
-        place = loaded.document.place(("reward", error.term))
-        raise SpecError((Diagnosis("BB045", str(error), place),), loaded.source) from None
+        place = loaded.lineage.place(("reward", error.term))
+        raise loaded.lineage.error([Diagnosis("BB045", str(error), place)]) from None

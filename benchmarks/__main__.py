@@ -23,8 +23,12 @@ machine's. What is measured, and how, is in `benchmarks/`.
 def main() -> int:
     """Measure, write, and fail where vectorization was lost."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure bbsd.")
-    parser.add_argument("--quick", action="store_true", help="small sizes, few rounds; prints and writes no file")
-    parser.add_argument("--only", choices=SECTIONS, nargs="+", help="print only these sections; writes no file")
+    parser.add_argument(
+        "--quick", action="store_true", help="small sizes, few rounds; prints and writes no file"
+    )
+    parser.add_argument(
+        "--only", choices=SECTIONS, nargs="+", help="print only these sections; writes no file"
+    )
     arguments = parser.parse_args()
     on_one_core()
     parts, asked = [HEAD, machine()], []

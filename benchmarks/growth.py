@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from benchmarks.generated import Shape, compiled, text_of
-from benchmarks.lifting import KEY
-from benchmarks.page import Asked, table
-from benchmarks.timing import Floats, alternated
 from bbsd.kernel.keys import keys
 from bbsd.solver.lifetime import live
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
+from benchmarks.generated import Shape, compiled, text_of
+from benchmarks.lifting import KEY
+from benchmarks.page import Asked, table
+from benchmarks.timing import Floats, alternated
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +28,7 @@ BOUND = 1.05
 class Size:
     """A generation: its spec, agents and episodes of a lifetime."""
 
-    shape: Shape = Shape(steps=100)
+    shape: Shape = field(default_factory=lambda: Shape(steps=100))
     agents: int = 400
     episodes: int = 10
 
@@ -60,9 +60,11 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
         [
             "## Growth",
             "",
-            "Time of the lives of one generation, structure search and learning included, of generated specs: "
-            f"{Size().agents} agents, {Size().episodes} episodes, {Size().shape.steps} steps, 3 robots, 5 behaviors, "
-            "8 cells each, but for what grows. The exponent is fitted to the logarithms.",
+            (
+                "Time of the lives of one generation, structure search and learning included, of generated specs: "
+                f"{Size().agents} agents, {Size().episodes} episodes, {Size().shape.steps} steps, 3 robots, "
+                "5 behaviors, 8 cells each, but for what grows. The exponent is fitted to the logarithms."
+            ),
             "",
             *table(["what grows", "sizes", "time, last / first", "exponent"], rows),
             "",
@@ -80,9 +82,10 @@ def curve(name: str, sizes: tuple[int, ...], rounds: int) -> Floats:
 def sized(name: str, size: int) -> Size:
     """The usual size but for one thing."""
     usual = Size()
+    changed: dict[str, Any] = {name: size}
     if name in ("agents", "episodes"):
-        return replace(usual, **{name: size})
-    return replace(usual, shape=replace(usual.shape, **{name: size}))
+        return replace(usual, **changed)
+    return replace(usual, shape=replace(usual.shape, **changed))
 
 
 def lives(size: Size) -> Callable[[], object]:
@@ -108,7 +111,7 @@ def draw(axes: dict[str, tuple[int, ...]], curves: dict[str, Floats], exponents:
     for name, sizes in axes.items():
         relative = np.array(sizes) / sizes[0]
         axis.loglog(relative, curves[name] / curves[name][0], "o-", label=f"{name}: {exponents[name]:.2f}")
-    axis.axline((1, 1), slope=1, color="0.7", linewidth=0.8, zorder=0)
+    axis.axline((1, 1), (2, 2), color="0.7", linewidth=0.8, zorder=0)
     axis.set_xlabel("size, relative to the smallest")
     axis.set_ylabel("time, relative to the smallest")
     axis.legend(title="exponent", frameon=False)

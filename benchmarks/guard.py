@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.kernel.keys import keys
+from bbsd.solver.random_agents import random_agents
 from benchmarks.generated import Shape, compiled, text_of
 from benchmarks.lifting import KEY, SPEC
 from benchmarks.page import Asked, table
 from benchmarks.timing import alternated
-from bbsd.kernel.keys import keys
-from bbsd.solver.random_agents import random_agents
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,11 +30,14 @@ SHAPES = {
     "a draw in the dynamics": Shape(dynamics="x + 0.01 * v + uniform(-0.01, 0.01)"),
     "a normal draw in the dynamics": Shape(dynamics="x + 0.01 * v + normal(0, 0.01)"),
     "lists": Shape(
-        sensors={"far": "list(abs(x - 0.1 * k) for k in range(8))"}, excited="any(far[k] < 0.3 for k in range(8))"
+        sensors={"far": "list(abs(x - 0.1 * k) for k in range(8))"},
+        excited="any(far[k] < 0.3 for k in range(8))",
     ),
     "sine and cosine": Shape(dynamics="x + 0.01 * v * cos(x) + 0.001 * sin(9 * x)"),
     "exponential and logarithm": Shape(dynamics="x + 0.01 * v * exp(-abs(x)) + 0.001 * log(1 + abs(x))"),
-    "power, tanh, remainder": Shape(dynamics="x + 0.01 * tanh(v) + 0.001 * abs(x) ** 0.5 + 0.001 * (x % 0.3)"),
+    "power, tanh, remainder": Shape(
+        dynamics="x + 0.01 * tanh(v) + 0.001 * abs(x) ** 0.5 + 0.001 * (x % 0.3)"
+    ),
 }
 
 
@@ -44,13 +47,17 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
     texts |= {name: text_of(shape) for name, shape in SHAPES.items() if not quick or name == "generated"}
     found = {name: gain(text, 3 if quick else 7) for name, text in texts.items()}
     asked = [Asked(f"guard: vectorized, {name}", figure, LEAST, least=True) for name, figure in found.items()]
-    rows = [[name, f"{figure:.2f}", "yes" if figure >= LEAST else "**lost**"] for name, figure in found.items()]
+    rows = [
+        [name, f"{figure:.2f}", "yes" if figure >= LEAST else "**lost**"] for name, figure in found.items()
+    ]
     return "\n".join(
         [
             "## The guard",
             "",
-            "Time of the same kernel compiled for one lane, relative to the one for 40 lanes that a design runs. "
-            f"Below {LEAST:g} the benchmark fails: the loop over lanes is no longer vectorized.",
+            (
+                "Time of the same kernel compiled for one lane, relative to the one for 40 lanes that a design runs. "
+                f"Below {LEAST:g} the benchmark fails: the loop over lanes is no longer vectorized."
+            ),
             "",
             *table(["spec", "gain", "vectorized"], rows),
         ]

@@ -36,9 +36,6 @@ class Lived(NamedTuple):
     credit: Floats
 
 
-Rollout = "Callable[[], Lived]"
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Workload:
     """Agents with one episode each.
@@ -84,6 +81,8 @@ def lifting(n_agents: int, episodes: int) -> tuple[Workload, Callable[[], Lived]
 
 def starting_heights(problem: Problem, streams: npt.NDArray[np.uint64]) -> Floats:
     """What the kernel draws for each robot at the start of an episode; (n_agents, n_robots)."""
-    words = [cast("int", problem.meaning.episode.start["height", robot, ()].data[1]) for robot in range(ROBOTS)]
-    drawn = [uniform(streams, fold(word | TOP_BIT, word_of(0)), 2.0, 3.0) for word in words]
+    elementwise = cast("Callable[..., Floats]", uniform)
+    start = problem.meaning.episode.start
+    words = [cast("tuple[str, int]", start["height", robot, ()].data)[1] for robot in range(ROBOTS)]
+    drawn = [elementwise(streams, fold(word | TOP_BIT, word_of(0)), 2.0, 3.0) for word in words]
     return np.ascontiguousarray(np.transpose(drawn))

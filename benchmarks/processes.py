@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.kernel.modules import CACHE_VARIABLE
 from benchmarks.lifting import SPECS
 from benchmarks.page import Asked, table
-from bbsd.kernel.modules import CACHE_VARIABLE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -42,9 +42,13 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
     """The text of the section, and the bounds."""
     with tempfile.TemporaryDirectory() as name:
         found = measured(Path(name), quick=quick)
-    medians = {what: Spent(*np.median([_figures(one) for one in runs], axis=0)) for what, runs in found.items()}
+    medians = {
+        what: Spent(*np.median([_figures(one) for one in runs], axis=0)) for what, runs in found.items()
+    }
     shares = {
-        what: float(np.median([run.clock / bare.clock for run, bare in zip(found[what], found[PASS], strict=False)]))
+        what: float(
+            np.median([run.clock / bare.clock for run, bare in zip(found[what], found[PASS], strict=False)])
+        )
         for what in found
     }
     rows = [
@@ -52,15 +56,21 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
         for what, one in medians.items()
     ]
     asked = [
-        Asked(f"{what}, {'times python -c pass' if what in AGAINST_PASS else 'seconds'}", figure, BOUNDS[what])
-        for what, figure in ((w, shares[w] if w in AGAINST_PASS else medians[w].clock) for w in found if w in BOUNDS)
+        Asked(
+            f"{what}, {'times python -c pass' if what in AGAINST_PASS else 'seconds'}", figure, BOUNDS[what]
+        )
+        for what, figure in (
+            (w, shares[w] if w in AGAINST_PASS else medians[w].clock) for w in found if w in BOUNDS
+        )
     ]
     return "\n".join(
         [
             "## Whole processes",
             "",
-            "Medians of rounds in which each command ran once, seed 0, kernels cached unless it says otherwise. The "
-            "first generation is there when its line of `metrics.jsonl` is; the process is stopped then.",
+            (
+                "Medians of rounds in which each command ran once, seed 0, kernels cached unless it says otherwise. "
+                "The first generation is there when its line of `metrics.jsonl` is; the process is stopped then."
+            ),
             "",
             *table(["", "seconds", "processor's", "python -c pass = 1", "MB at the peak"], rows),
         ]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from benchmarks.lifting import lifting
+from benchmarks.lifting import ROBOTS, STEPS, lifting
 from benchmarks.page import Asked, table
 from benchmarks.timing import alternated, spread
 
@@ -63,7 +63,11 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
         if peer.name in times:
             times[peer.name] *= len(workload) / max(len(workload) // peer.part, 1)
     asked = [
-        Asked(f"lifting rollout beside {peer.name}", float(np.median(times[BBSD] / times[peer.name])), peer.asked)
+        Asked(
+            f"lifting rollout beside {peer.name}",
+            float(np.median(times[BBSD] / times[peer.name])),
+            peer.asked,
+        )
         for peer in PEERS
         if peer.asked and peer.name in times
     ]
@@ -101,11 +105,14 @@ def written(workload: Workload, times: dict[str, Floats], notes: dict[str, str])
         [
             "## The lifting rollout",
             "",
-            f"One episode of each of {len(workload)} agents ({AGENTS} random agents of `specs/object_lifting.yaml` in "
-            f"{len(workload) // AGENTS} episodes each), 300 steps, 3 robots; returns and credit. All start from the "
-            "same heights. The generated kernel is the one that `bbsd design` runs, in strict floating point. DEAP's "
-            "program lives a hundredth of it. Times of the processor, medians of alternated rounds, quartiles in "
-            f"brackets. Here bbsd took {nanoseconds:.2f} ns a robot and step.",
+            (
+                f"One episode of each of {len(workload)} agents ({AGENTS} random agents of "
+                f"`specs/object_lifting.yaml` in {len(workload) // AGENTS} episodes each), {STEPS} steps, {ROBOTS} "
+                "robots; returns and credit. All start from the same heights. The generated kernel is the one that "
+                "`bbsd design` runs, in strict floating point. DEAP's program lives a hundredth of it. Times of the "
+                "processor, medians of alternated rounds, quartiles in brackets. Here bbsd took "
+                f"{nanoseconds:.2f} ns a robot and step."
+            ),
             "",
             *table(["", "time, scalar C = 1", "", "bbsd is faster by", "returns beside bbsd's"], rows),
         ]

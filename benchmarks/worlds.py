@@ -21,6 +21,8 @@ SPECS = Path(__file__).parents[1] / "specs"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
 SEEDS = range(5)
 FRESH = keys(name_word("worlds"), 0, 2000)
+BUMP = -3
+"""What the mobile robot gets for a bump."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -94,7 +96,7 @@ def lamp_and_bumps(found: Lived, hand: Lived | None = None) -> tuple[str, bool]:
     reached = float(np.mean(found.terms["arrived"] > 0))
     bumped = found.terms["bump"]
     few = hand is None or interval(bumped - hand.terms["bump"]).high >= 0
-    return f"lamp {reached:.1%}, bumps {-bumped.mean():.4f}", few and reached >= 0.95
+    return f"lamp {reached:.1%}, bumps {np.mean(bumped) / BUMP:.4f}", few and reached >= 0.95
 
 
 def line(row: Row) -> str:

@@ -85,7 +85,7 @@ def _checked(spec: Path) -> tuple[str, SpecError | None]:
 def _verdict(spec: Path, size: str, error: SpecError | None) -> str:
     if error is None:
         return f"{spec}: ok ({size})"
-    diagnoses = diagnoses_text(error.diagnoses, error.source, color=has_color(sys.stdout))
+    diagnoses = diagnoses_text(error, color=has_color(sys.stdout))
     return f"{diagnoses}\n\n{count(len(error.diagnoses), 'mistake')} in {spec}"
 
 

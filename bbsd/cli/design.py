@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
+from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, say, show, show_table
 from bbsd.report.figures import curves
 from bbsd.report.plain import design_plain, json_text
@@ -32,6 +32,7 @@ def design(
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
     lanes: Lanes = 40,
+    jobs: Jobs = 1,
     overrides: Overrides = None,
     as_json: AsJson = False,
     dry_run: Annotated[
@@ -61,6 +62,7 @@ def design(
                 out=out,
                 resume=resume,
                 lanes=lanes,
+                jobs=jobs,
                 overrides=overrides or (),
                 progress=listener,
             )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
+from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import has_blocks, require_writable, say, show, show_table
 from bbsd.report.csv_text import csv_text
 from bbsd.report.figures import episode, require_figure
@@ -48,6 +48,7 @@ def evaluate(
     ] = None,
     as_json: AsJson = False,
     lanes: Lanes = 40,
+    jobs: Jobs = 1,
 ) -> None:
     """Measure what a design earns.
 
@@ -65,6 +66,7 @@ def evaluate(
         agents=agents,
         exact=exact,
         lanes=lanes,
+        jobs=jobs,
         overrides=overrides or (),
     )
     _show(evaluation, as_json=as_json)

@@ -1,10 +1,9 @@
 """Errors that a user can mend, told without a traceback."""
 
 import sys
-from collections.abc import Iterable
 
 from bbsd.cli.output import has_color, say
-from bbsd.errors import Diagnosis, Lines, SpecError, UsageError, render_text
+from bbsd.errors import SpecError, UsageError, render_text
 
 MISTAKE = 2
 """The exit code for what the user gave and can mend."""
@@ -13,7 +12,7 @@ MISTAKE = 2
 def told(error: Exception) -> int:
     """Tell of an error and return the exit code; one that is our own mistake is raised again."""
     if isinstance(error, SpecError):
-        say(diagnoses_text(error.diagnoses, error.source, color=has_color(sys.stderr)))
+        say(diagnoses_text(error, color=has_color(sys.stderr)))
     elif isinstance(error, OSError):
         say(f"bbsd: {_os_text(error)}")
     elif isinstance(error, UsageError):
@@ -23,9 +22,9 @@ def told(error: Exception) -> int:
     return MISTAKE
 
 
-def diagnoses_text(diagnoses: Iterable[Diagnosis], source: Lines, *, color: bool) -> str:
+def diagnoses_text(error: SpecError, *, color: bool) -> str:
     """Return diagnoses with their source lines, a blank line between them."""
-    return "\n\n".join(render_text(each, source.line(each.place.line), color) for each in diagnoses)
+    return "\n\n".join(render_text(each, error.line(each.place), color) for each in error.diagnoses)
 
 
 def _os_text(error: OSError) -> str:

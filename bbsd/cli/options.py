@@ -48,6 +48,9 @@ Overrides = Annotated[
     ),
 ]
 
+Jobs = Annotated[
+    int, typer.Option(metavar="N", min=1, help="Threads that share the work; the result is the same.")
+]
 Lanes = Annotated[
     int,
     typer.Option(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -38,12 +38,19 @@ class Lines(Protocol):
 
 
 class SpecError(Exception):
-    """Everything that is wrong with one file."""
+    """Everything that is wrong with a file, and with others that it refers to: their texts by their names."""
 
-    def __init__(self, diagnoses: Iterable[Diagnosis], source: Lines) -> None:
+    def __init__(
+        self, diagnoses: Iterable[Diagnosis], source: Lines, others: Mapping[str, Lines] | None = None
+    ) -> None:
         self.diagnoses = tuple(diagnoses)
         self.source = source
-        super().__init__(self.diagnoses, source)
+        self.others = others or {}
+        super().__init__(self.diagnoses, source, self.others)
+
+    def line(self, place: Place) -> str:
+        """Return the line that a place is on; '' if there is none."""
+        return self.others.get(place.file, self.source).line(place.line)
 
     def __str__(self) -> str:
         return "\n".join(

@@ -105,6 +105,17 @@ SPEC_KINDS = (
         mend="--set design.coevolution.generations=10",
     ),
     Kind(
+        code="BB029",
+        title="a file that cannot be extended",
+        explanation=(
+            "extends names a file in the spec's own folder or below it, links followed, so that a spec from "
+            "elsewhere cannot reach other files. Files cannot extend each other in a circle, and at most ten, "
+            "of 1 MB together, are read."
+        ),
+        example="extends: ../lifting.yaml",
+        mend="extends: bases/lifting.yaml",
+    ),
+    Kind(
         code="BB030",
         title="an input that is not partitioned",
         explanation=(

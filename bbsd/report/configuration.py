@@ -11,8 +11,9 @@ from bbsd.text.writer import entry_lines
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from bbsd.spec.lineage import Lineage
     from bbsd.spec.loading import Loaded
-    from bbsd.text import Data, Document
+    from bbsd.text import Data
     from bbsd.text.nodes import DataPath
 
 DEFAULT, OVERRIDE = "default", "--set"
@@ -21,12 +22,12 @@ WIDEST = 72
 
 
 def configuration_text(loaded: Loaded) -> str:
-    """Return a spec as YAML with nothing left to defaults.
+    """Return a spec as YAML with nothing left to defaults, what it extends included.
 
     Comments say where each value comes from: file:line, default, or --set.
     """
     whole = _filled(loaded.spec, loaded.data)
-    lines = list(_lines(whole, (), loaded.data, loaded.document))
+    lines = list(_lines(whole, (), loaded.data, loaded.lineage))
     width = max((len(text) for text, origin in lines if origin and len(text) < WIDEST), default=0)
     return "".join(f"{text:<{width}}  # {origin}\n" if origin else f"{text}\n" for text, origin in lines)
 
@@ -58,9 +59,7 @@ def _value(value: object, data: Data) -> Data:
     )
 
 
-def _lines(
-    value: dict[str, Data], path: DataPath, data: Data, document: Document
-) -> Iterator[tuple[str, str]]:
+def _lines(value: dict[str, Data], path: DataPath, data: Data, lineage: Lineage) -> Iterator[tuple[str, str]]:
     """Yield lines of YAML, each with the origin that is to be noted on it, if any."""
     indent = 2 * len(path) * " "
     for key, each in value.items():
@@ -68,9 +67,9 @@ def _lines(
         if isinstance(each, dict) and each:
             yield from [("", "")] * (not path)
             yield f"{indent}{key}:", ""
-            yield from _lines(each, here, data, document)
+            yield from _lines(each, here, data, lineage)
         else:
-            yield from _leaf(key, each, indent, _origin(here, data, document))
+            yield from _leaf(key, each, indent, _origin(here, data, lineage))
 
 
 def _leaf(key: str, value: Data, indent: str, origin: str) -> Iterator[tuple[str, str]]:
@@ -81,13 +80,13 @@ def _leaf(key: str, value: Data, indent: str, origin: str) -> Iterator[tuple[str
         yield indent + line, origin if number == noted else ""
 
 
-def _origin(path: DataPath, data: Data, document: Document) -> str:
-    asked, written = _at(data, path), _at(document.data, path)
+def _origin(path: DataPath, data: Data, lineage: Lineage) -> str:
+    asked, written = _at(data, path), _at(lineage.data, path)
     if asked is None:
         return DEFAULT
     if asked != written:
         return OVERRIDE
-    place = document.place(path, on_key=True)
+    place = lineage.place(path, on_key=True)
     return f"{place.file}:{place.line}"
 
 

@@ -34,14 +34,44 @@ NAME_ADVICE = "names are small letters, digits and _, a letter first, and no wor
 
 
 def language_schema() -> Schema:
-    """Return the schema of a spec: its blocks inside each other, a description and a default for each key."""
+    """Return the schema of a spec: its blocks inside each other, a description and a default for each key.
+
+    A spec that extends another may lack any key, and any may be null, which takes it away.
+    """
+    whole = {**_part(models.Spec), "title": "A bbsd spec"}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "$id": "urn:bbsd:language:1",
-        **_part(models.Spec),
         "title": "A bbsd spec",
-        "definitions": _definitions(),
+        "if": {"required": ["extends"], "properties": {"extends": {"type": "string"}}},
+        "then": _ref("part"),
+        "else": _ref("whole"),
+        "definitions": {"whole": whole, "part": _partial(whole), **_definitions()},
     }
+
+
+def _partial(schema: Schema) -> Schema:
+    """Return the schema of a block of which any part may be missing, and any key's value null."""
+    partial = {key: value for key, value in schema.items() if key not in ("required", "minProperties")}
+    if "properties" in schema:
+        partial["properties"] = {key: _nullable(each) for key, each in schema["properties"].items()}
+    if isinstance(values := schema.get("additionalProperties"), dict):
+        partial["additionalProperties"] = _nullable(values)
+    if "anyOf" in schema:
+        partial["anyOf"] = [_partial(each) for each in schema["anyOf"]]
+    return partial
+
+
+def _nullable(schema: Schema) -> Schema:
+    partial = _partial(schema)
+    if "type" in partial:
+        kinds = partial["type"] if isinstance(partial["type"], list) else [partial["type"]]
+        partial["type"] = [*dict.fromkeys([*kinds, "null"])]
+    if "enum" in partial:
+        partial["enum"] = [*partial["enum"], None]
+    if "anyOf" in partial:
+        partial["anyOf"] = [*partial["anyOf"], {"type": "null"}]
+    return {"anyOf": [partial, {"type": "null"}]} if "$ref" in partial else partial
 
 
 def _definitions() -> Schema:

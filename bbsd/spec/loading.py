@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import Diagnosis, SpecError
 from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.spec.lineage import lineage
 from bbsd.spec.meaning import Meaning, mean
+from bbsd.spec.overrides import FILE as OVERRIDES
 from bbsd.spec.overrides import overrides_source, read_overrides, with_overrides
 from bbsd.spec.stand_ins import rest_of
 from bbsd.spec.validation import existing, form_mistakes, validate
-from bbsd.text import read
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -19,20 +20,21 @@ if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
     from bbsd.errors import Place
+    from bbsd.spec.lineage import Lineage
     from bbsd.spec.models import Spec
     from bbsd.spec.overrides import Override
     from bbsd.spec.validation import Told
-    from bbsd.text import Data, Document, Source
+    from bbsd.text import Data, Source
 
 MAX_SHOWN = 50
 
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """A spec without mistakes: its text, its plain data after overrides, its model, and what it means."""
+    """A spec without mistakes: its text, its files, its plain data after overrides, its model, what it means."""
 
     source: Source
-    document: Document
+    lineage: Lineage
     data: Data
     spec: Spec
     meaning: Meaning
@@ -44,15 +46,16 @@ def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loa
     `overrides` are arguments PATH=VALUE. Raises SpecError with all mistakes of the file in its order, 50 at most; or
     with those of the overrides alone, where there are any: their source has an argument on each line.
     """
-    document = read(source)
+    files = lineage(source)
     given = read_overrides(overrides)
-    data = with_overrides(document.data, given, overrides)
-    spec, meaning, told = _examined(data, seed) if document.root else (None, None, [])
-    if spec is None or meaning is None or document.diagnoses:
-        diagnoses = _diagnoses(told, document, data, given)
-        own = [each for each in diagnoses if each.place.file != source.file]
-        raise SpecError(_capped(own or diagnoses), overrides_source(overrides) if own else source)
-    return Loaded(source, document, data, spec, meaning)
+    data = with_overrides(files.data, given, overrides)
+    spec, meaning, told = _examined(data, seed) if files.is_readable else (None, None, [])
+    if spec is None or meaning is None or files.mistakes:
+        diagnoses = _diagnoses(told, files, data, given)
+        if own := [each for each in diagnoses if each.place.file == OVERRIDES]:
+            raise SpecError(_capped(own), overrides_source(overrides))
+        raise files.error(_capped(diagnoses))
+    return Loaded(source, files, data, spec, meaning)
 
 
 def check(source: Source, seed: int = 0) -> tuple[Diagnosis, ...]:
@@ -81,28 +84,28 @@ def _mistakes_in_the_rest(data: Data, errors: Sequence[ErrorDetails], seed: int)
 
 
 def _diagnoses(
-    told: Iterable[Told], document: Document, data: Data, overrides: Sequence[Override]
+    told: Iterable[Told], files: Lineage, data: Data, overrides: Sequence[Override]
 ) -> list[Diagnosis]:
     """All mistakes in the order of the text; what YAML itself already stumbled over is said once."""
-    stumbled = {_start(each.place) for each in document.diagnoses}
-    found = [*document.diagnoses]
+    stumbled = {_start(each.place) for each in files.mistakes}
+    found = [*files.mistakes]
     for path, mistake in told:
-        place = _place((path, mistake), document, data, overrides)
-        places = {_start(place), _start(document.place(existing(path, data)))}
-        if stumbled.isdisjoint(places) and not (mistake.code == "BB021" and _has_merged(document)):
+        place = _place((path, mistake), files, data, overrides)
+        places = {_start(place), _start(files.place(existing(path, data)))}
+        if stumbled.isdisjoint(places) and not (mistake.code == "BB021" and _has_merged(files)):
             found.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice))
     return sorted(dict.fromkeys(found), key=lambda each: each.place)
 
 
-def _start(place: Place) -> tuple[int, int]:
-    return place.line, place.column
+def _start(place: Place) -> tuple[str, int, int]:
+    return place.file, place.line, place.column
 
 
-def _has_merged(document: Document) -> bool:
-    return any(each.code == "BB007" for each in document.diagnoses)
+def _has_merged(files: Lineage) -> bool:
+    return any(each.code == "BB007" for each in files.mistakes)
 
 
-def _place(told: Told, document: Document, data: Data, overrides: Sequence[Override]) -> Place:
+def _place(told: Told, files: Lineage, data: Data, overrides: Sequence[Override]) -> Place:
     path, mistake = told
     there = existing(path, data)
     span = None if mistake.span in (KEY, WHOLE) or there != path else mistake.span
@@ -111,7 +114,7 @@ def _place(told: Told, document: Document, data: Data, overrides: Sequence[Overr
     for override in reversed(overrides):
         if there[: len(override.path)] == override.path:
             return override.place(there[len(override.path) :], offset, on_key=on_key, length=length)
-    return document.place(there, offset, on_key, length)
+    return files.place(there, offset, on_key, length)
 
 
 def _capped(diagnoses: Sequence[Diagnosis]) -> Sequence[Diagnosis]:

@@ -152,6 +152,9 @@ class Spec(Part):
     bbsd: Literal[1] = Field(description="Version of the language.")
     name: str = Field(min_length=1, max_length=100, description="What the design is called.")
     summary: str = Field("", description="One sentence about it.")
+    extends: str | None = Field(
+        None, description="A spec in this folder or below that this one is laid over; null there takes away."
+    )
     constants: Block[ValueNameText, Annotated[Any, BeforeValidator(_constant)]] = Field(
         {}, description="Numbers, lists and tables that do not change in a run."
     )

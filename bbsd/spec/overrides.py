@@ -88,6 +88,9 @@ def with_overrides(data: Data, overrides: Sequence[Override], arguments: Sequenc
 
 def _set(data: Data, override: Override) -> Diagnosis | None:
     """Set one value, making the mappings on its way that the language knows; null deletes."""
+    if override.path[0] == "extends":  # what it says was read already
+        place = Place(FILE, override.line, override.columns[0], len("extends"))
+        return Diagnosis("BB028", "extends cannot be set", place, "write it in a spec of its own")
     *way, last = override.path
     for depth, segment in enumerate(way):
         if not _is_known(data, override.path[: depth + 1]):

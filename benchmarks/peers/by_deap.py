@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from deap import base, creator
@@ -71,7 +71,7 @@ ACTIONS = (
 )
 
 
-def controlling(team: Team, robot: Robot, individual: Any) -> int | None:
+def controlling(team: Team, robot: Robot, individual: creator.Agent) -> int | None:
     for behavior in reversed(individual.structure):
         if individual[behavior][SENSES[behavior](team, robot)]:
             return behavior
@@ -86,7 +86,7 @@ def reward(team: Team, robot: Robot, before: float, step: int) -> float:
     return earned + (-0.1 if abs(robot.speed) > TOP_SPEED else 0.0)
 
 
-def evaluate(individual: Any) -> tuple[float]:
+def evaluate(individual: creator.Agent) -> tuple[float]:
     team = Team(individual.heights)
     credit = dict.fromkeys((*range(BEHAVIORS), None), 0.0)
     total = 0.0
@@ -113,7 +113,9 @@ def prepare(workload: Workload) -> Callable[[], Lived]:
     toolbox = base.Toolbox()
     toolbox.register("evaluate", evaluate)
     population = []
-    for heights, tables, structure in zip(workload.heights, workload.tables, workload.structures, strict=True):
+    for heights, tables, structure in zip(
+        workload.heights, workload.tables, workload.structures, strict=True
+    ):
         individual = creator.Agent(tables.tolist())
         individual.heights, individual.structure = heights.tolist(), structure.tolist()
         population.append(individual)

@@ -57,7 +57,9 @@ def speed_after(behavior: int, speed: float) -> float:
 
 
 @numba.njit
-def controlling(tables: np.ndarray, structure: np.ndarray, height: Floats, speed: float, robot: int, tilted: int) -> int:
+def controlling(
+    tables: np.ndarray, structure: np.ndarray, height: Floats, speed: float, robot: int, tilted: int
+) -> int:
     for layer in range(len(structure) - 1, -1, -1):
         behavior = structure[layer]
         if tables[behavior, cell_of(behavior, height, speed, robot, tilted)]:
@@ -92,7 +94,9 @@ def episode(start: Floats, tables: np.ndarray, structure: np.ndarray, credit: Fl
 
 
 @numba.njit
-def lift(heights: Floats, tables: np.ndarray, structures: np.ndarray, returns: Floats, credit: Floats) -> None:
+def lift(
+    heights: Floats, tables: np.ndarray, structures: np.ndarray, returns: Floats, credit: Floats
+) -> None:
     for agent in range(len(heights)):
         returns[agent] = episode(heights[agent], tables[agent], structures[agent], credit[agent])
 

@@ -81,8 +81,8 @@ design:
 """Three robots, fewer layers than behaviors, a table larger than a word, draws everywhere, an end."""
 
 
-def problem_of(text, *, seed=0, lanes=None, compiled=False):
-    return compile_meaning(meaning_of(text, seed), lanes=lanes, compiled=compiled)
+def problem_of(text, *, seed=0, lanes=None, compiled=False, jobs=1):
+    return compile_meaning(meaning_of(text, seed), lanes=lanes, compiled=compiled, jobs=jobs)
 
 
 def lived(problem, n_agents, seed=0, generation=1):

@@ -41,6 +41,21 @@ def test_the_file_in_the_repository_is_what_the_models_say(request):
     assert path.read_text(encoding="utf-8") == text
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["", "structure: null", "behaviors: {stop: null}", "environment: {steps: 3}", "constants: {a: null}",
+     "behaviors: {stop: {actions: {halt: {speed: null}}}}", "design: {culture: null, sharing: null}"],
+)  # fmt: skip
+def test_a_spec_that_extends_another_may_lack_keys_and_take_some_away(text):
+    assert VALIDATOR.is_valid(read(Source("spec", f"extends: base.yaml\n{text}\n")).data)
+    assert not VALIDATOR.is_valid(read(Source("spec", f"bbsd: 1\n{text}\n")).data)
+
+
+@pytest.mark.parametrize("text", ["stucture: null", "environment: {steps: many}", "constants: {Goal: 1}"])
+def test_a_spec_that_extends_another_is_checked_too(text):
+    assert not VALIDATOR.is_valid(read(Source("spec", f"extends: base.yaml\n{text}\n")).data)
+
+
 def test_it_is_a_schema_without_tuples():
     schema = language_schema()
     jsonschema.Draft7Validator.check_schema(schema)
@@ -78,7 +93,7 @@ def test_a_shipped_spec_tells_editors_where_its_schema_is(path):
 
 
 def test_a_key_has_its_meaning_its_bounds_and_its_default():
-    design = language_schema()["properties"]["design"]
+    design = language_schema()["definitions"]["whole"]["properties"]["design"]
     agents = design["properties"]["coevolution"]["properties"]["agents"]
     assert agents == {
         "type": "integer",

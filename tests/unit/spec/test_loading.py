@@ -24,7 +24,7 @@ def test_what_was_loaded_is_all_there() -> None:
     given_source = Source("spec.yaml", BASE)
     loaded = load(given_source, overrides=["environment.steps=7"])
     assert loaded.source is given_source
-    assert loaded.document.data["environment"]["steps"] == 10
+    assert loaded.lineage.data["environment"]["steps"] == 10
     assert loaded.data["environment"]["steps"] == loaded.spec.environment.steps == 7
 
 

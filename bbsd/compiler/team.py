@@ -1,0 +1,163 @@
+"""Agents that live side by side in the lanes of a kernel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from bbsd.compiler.deciding import ACTION_BITS
+from bbsd.compiler.tables import Pool, cells_of, words_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bbsd.compiler.problem import Problem
+
+NEVER = -(1 << 40)
+"""The priority of a behavior that is not in the structure."""
+
+WORTH_A_THREAD = 100_000
+"""Robot-steps that a thread must have to do: about half a millisecond."""
+
+Floats = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+Keys = npt.NDArray[np.uint64]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """An episode of every agent: returns (n_agents,).
+
+    And credit (n_agents, n_behaviors + 1), the last column nobody's.
+    """
+
+    returns: Floats
+    credit: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class DetailedOutcome:
+    """An episode of every agent in detail.
+
+    returns (n,), credit (n, n_behaviors + 1), terms (n, n_terms) in the spec's order, control (n, n_behaviors + 1)
+    robot-steps by behavior and nobody, taken (n,) steps, odd (n, n_places) steps in which a value was not finite.
+    """
+
+    returns: Floats
+    credit: Floats
+    terms: Floats
+    control: Floats
+    taken: Floats
+    odd: Floats
+
+
+class Team:
+    """Agents ready to live: their tables as the kernel reads them.
+
+    Lanes refer to individuals, they do not copy them.
+    """
+
+    def __init__(
+        self, problem: Problem, pools: tuple[Pool, ...], members: Integers, constants: Floats
+    ) -> None:
+        self.problem = problem
+        self.size = len(members)
+        padded = -(-self.size // problem.lanes) * problem.lanes
+        self._individuals = np.zeros((problem.n_behaviors, padded), np.int64)
+        self._individuals[:, : self.size] = members.T
+        self._words = words_of(problem.tables, pools)
+        self._cells, self._origins = cells_of(problem.tables, pools)
+        self._constants = constants
+        self._keys = np.zeros(padded, np.uint64)
+        self._priorities = np.full((problem.n_behaviors, padded), NEVER, np.int64)
+        actions = [0, *np.cumsum([table.n_actions for table in problem.tables])[:-1]]
+        self._first_actions = np.array(actions, np.int64)
+
+    def episode(self, keys: Keys, structures: Integers) -> Outcome:
+        """Live one episode: keys (n_agents,) name its streams, structures (n_agents, n_layers) order the behaviors."""
+        returns, credit = self._outputs(1)[0], self._outputs(self.problem.n_behaviors + 1)
+        self._live(self.problem.rollout, *self._inputs(keys, structures), returns, credit)
+        return Outcome(returns[: self.size], credit[:, : self.size].T)
+
+    def detailed_episode(self, keys: Keys, structures: Integers) -> DetailedOutcome:
+        """The same episode with everything that an evaluation reports."""
+        n_behaviors, size = self.problem.n_behaviors, self.size
+        returns, taken = self._outputs(1)[0], self._outputs(1)[0]
+        credit, control = self._outputs(n_behaviors + 1), self._outputs(n_behaviors + 1)
+        terms, odd = (
+            self._outputs(len(self.problem.meaning.episode.reward)),
+            self._outputs(len(self.problem.places)),
+        )
+        inputs = self._inputs(keys, structures)
+        self._live(self.problem.rollout_detailed, *inputs, returns, credit, terms, control, taken, odd)
+        return DetailedOutcome(
+            returns[:size],
+            credit[:, :size].T,
+            terms[:, :size].T,
+            control[:, :size].T,
+            taken[:size],
+            odd[:, :size].T,
+        )
+
+    def traced_episode(
+        self, rollout: Callable[..., None], key: int, structure: Integers, record: Floats
+    ) -> int:
+        """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken."""
+        n_behaviors, keys = self.problem.n_behaviors, np.array([key], np.uint64)
+        returns, taken = self._outputs(1)[0], self._outputs(1)[0]
+        credit, control = self._outputs(n_behaviors + 1), self._outputs(n_behaviors + 1)
+        terms, odd = (
+            self._outputs(len(self.problem.meaning.episode.reward)),
+            self._outputs(len(self.problem.places)),
+        )
+        inputs = self._inputs(np.resize(keys, self.size), np.resize(structure, (self.size, len(structure))))
+        with np.errstate(all="ignore"):
+            rollout(0, 1, *inputs, returns, credit, terms, control, taken, odd, record)
+        return int(taken[0])
+
+    def _live(self, rollout: Callable[..., None], *arrays: object) -> None:
+        """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock."""
+        spans = self._spans()
+        if len(spans) == 1:
+            rollout(*spans[0], *arrays)
+            return
+        list(self.problem.threads.map(lambda span: rollout(*span, *arrays), spans))
+
+    def _spans(self) -> list[tuple[int, int]]:
+        """Which lanes each thread runs, whole batches of them."""
+        environment, lanes = self.problem.meaning.spec.environment, self.problem.lanes
+        batches = self._keys.size // lanes
+        worth = self._keys.size * environment.steps * environment.robots // WORTH_A_THREAD
+        parts = max(1, min(self.problem.jobs, batches, worth))
+        ends = [batches * part // parts * lanes for part in range(parts + 1)]
+        return list(pairwise(ends))
+
+    def _outputs(self, rows: int) -> Floats:
+        return np.zeros((rows, self._keys.size))
+
+    def _inputs(self, keys: Keys, structures: Integers) -> tuple[object, ...]:
+        self._keys[: self.size] = keys
+        self._set_priorities(structures)
+        return (
+            self._keys,
+            self._individuals,
+            self._words,
+            self._cells,
+            self._origins,
+            self._priorities,
+            self._constants,
+        )
+
+    def _set_priorities(self, structures: Integers) -> None:
+        """Higher layers bid higher; what is added makes of a choice the action's number over all behaviors."""
+        self._priorities[:] = NEVER
+        agents = np.arange(self.size)
+        for layer in range(structures.shape[1]):
+            behaviors = structures[:, layer]
+            self._priorities[behaviors, agents] = ((layer + 1) << ACTION_BITS) + self._first_actions[
+                behaviors
+            ]
