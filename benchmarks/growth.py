@@ -28,14 +28,14 @@ BOUND = 1.05
 class Size:
     """A generation: its spec, agents and episodes of a lifetime."""
 
-    shape: Shape = field(default_factory=lambda: Shape(steps=100))
+    shape: Shape = field(default_factory=lambda: Shape(steps=400))
     agents: int = 400
     episodes: int = 10
 
 
 AXES: dict[str, tuple[int, ...]] = {
     "agents": (400, 800, 1600, 3200),
-    "steps": (100, 200, 400, 800),
+    "steps": (200, 400, 800, 1600),
     "robots": (2, 3, 4, 6, 8),
     "episodes": (10, 20, 40, 80),
     "behaviors": (2, 4, 8, 16),
@@ -114,6 +114,8 @@ def draw(axes: dict[str, tuple[int, ...]], curves: dict[str, Floats], exponents:
     axis.axline((1, 1), (2, 2), color="0.7", linewidth=0.8, zorder=0)
     axis.set_xlabel("size, relative to the smallest")
     axis.set_ylabel("time, relative to the smallest")
+    axis.set_yticks([1, 2, 4, 8], ["1", "2", "4", "8"], minor=False)
+    axis.set_yticks([], minor=True)
     axis.legend(title="exponent", frameon=False)
     FIGURE.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(FIGURE, dpi=120, metadata={"Software": None})

@@ -68,7 +68,8 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
             "## Whole processes",
             "",
             (
-                "Medians of rounds in which each command ran once, seed 0, kernels cached unless it says otherwise. "
+                "Medians of rounds in which each command ran once, seed 0, Python's bytecode and the kernels "
+                "cached unless it says otherwise. "
                 "The first generation is there when its line of `metrics.jsonl` is; the process is stopped then."
             ),
             "",
@@ -96,9 +97,8 @@ def measured(folder: Path, *, quick: bool) -> dict[str, list[Spent]]:
     }
     if not quick:
         commands[DESIGN_ABSTRACT] = lambda turn: spent(_design(ABSTRACT, folder / f"abstract-{turn}"), warm)
-    for what in (DESIGN_LIFTING, DESIGN_ABSTRACT):
-        if what in commands:
-            commands[what](-1)
+    for what in commands.keys() - {NEW, COLD}:
+        commands[what](-1)
     found: dict[str, list[Spent]] = {what: [] for what in commands}
     for turn in range(rounds):
         for what, run in commands.items():
@@ -126,9 +126,15 @@ def spent(command: Sequence[str], cache: Path, until: str = "-") -> Spent:
         check=True,
         stdout=subprocess.PIPE,
         text=True,
-        env={**os.environ, CACHE_VARIABLE: str(cache)},
+        env=environment(cache),
     )
     clock, processor, memory, status = map(float, done.stdout.split())
     if status and not (until != "-" and status == -signal.SIGKILL):
         raise RuntimeError(f"{' '.join(command)} failed")
     return Spent(clock, processor, memory)
+
+
+def environment(cache: Path) -> dict[str, str]:
+    """The present one with that cache; bytecode is kept, as it is where a package was installed."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return {**kept, CACHE_VARIABLE: str(cache), "PYTHONPYCACHEPREFIX": str(cache.parent / "bytecode")}

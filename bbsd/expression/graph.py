@@ -17,7 +17,7 @@ from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Mapping
 
-MAX_NODES = 300_000
+MAX_NODES = 100_000
 MAX_WORK = 1_500_000
 """Nodes asked for, those that exist already counted again, with a surcharge for elements of generators."""
 

@@ -6,7 +6,7 @@ import re
 from bisect import bisect
 from collections import Counter
 from dataclasses import dataclass, field
-from itertools import islice, takewhile
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from bbsd.text.flow import value_layout
@@ -183,24 +183,25 @@ def _comment_column(layout: _Layout, start: int) -> int:
     """Return the column of what follows a comment or of a block it stands in, where it has that now."""
     line, column = layout.source.line_number(start), layout.column(start)
     place = bisect(layout.heads, line, key=lambda head: head.line)
-    candidates = [*_next_line(layout.heads, place), *_open(layout.heads, place)]
-    for head in candidates:
+    nearest: Head | None = None
+    for head in chain(_next_line(layout.heads, place), _open(layout.heads, place, column)):
         if head.column == column:
             return head.wanted
-    if not candidates:
-        return column
-    nearest = candidates[0]
-    return max(0, column + nearest.wanted - nearest.column)
+        nearest = nearest or head
+    return max(0, column + nearest.wanted - nearest.column) if nearest else column
 
 
 def _next_line(heads: list[Head], place: int) -> Iterator[Head]:
-    yield from takewhile(lambda head: head.line == heads[place].line, islice(heads, place, None))
+    line = heads[place].line if place < len(heads) else 0
+    while place < len(heads) and heads[place].line == line:
+        yield heads[place]
+        place += 1
 
 
-def _open(heads: list[Head], place: int) -> Iterator[Head]:
-    """Yield the heads before a place whose blocks could go on there, the nearest first."""
+def _open(heads: list[Head], place: int, column: int) -> Iterator[Head]:
+    """Yield the heads before a place whose blocks could go on there in a column, the nearest first."""
     least: int | None = None
-    while place and least != 0:
+    while place and (least is None or least > column):
         place -= 1
         if least is None or heads[place].column < least:
             least = heads[place].column

@@ -23,7 +23,8 @@ def tilt_of(height: Floats) -> Floats:
     """height (n_robots, n_agents) -> (n_agents,)."""
     sideways = (height[2] - height[1]) / (np.sqrt(3) * RADIUS)
     forward = (height[0] - (height[1] + height[2]) / 2) / (1.5 * RADIUS)
-    return np.degrees(np.arctan(np.sqrt(sideways * sideways + forward * forward)))
+    angle: Floats = np.degrees(np.arctan(np.sqrt(sideways * sideways + forward * forward)))
+    return angle
 
 
 def cells_of(height: Floats, speed: Floats, tilt: Floats) -> npt.NDArray[np.int64]:
@@ -38,9 +39,10 @@ def rewards_of(height: Floats, speed: Floats, tilt: Floats, before: Floats, step
     """What each robot earned, (n_robots, n_agents)."""
     leveling = np.where(tilt - before < -0.5, 1.0, -0.1)
     level = np.where(tilt < SMALL_TILT, 1 / np.sqrt(step), -0.1 * np.sqrt(step))
-    earned = leveling + level + np.where(np.abs(height - GOAL) < 0.5, 1.0, -0.1)
+    earned: Floats = leveling + level + np.where(np.abs(height - GOAL) < 0.5, 1.0, -0.1)
     earned += np.where(height > GOAL + 0.2, -1.0, 0.0)
-    return earned + np.where(np.abs(speed) > TOP_SPEED, -0.1, 0.0)
+    earned += np.where(np.abs(speed) > TOP_SPEED, -0.1, 0.0)
+    return earned
 
 
 def lift(workload: Workload) -> Lived:

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from bbsd.api import designed_text
+from bbsd.architecture import given_architecture
+from bbsd.compiler import compile_meaning
 from bbsd.errors import SpecError
 from bbsd.report.configuration import configuration_text
 from bbsd.spec import lineage
@@ -194,6 +197,17 @@ def test_the_configuration_names_the_file_of_each_value():
     assert origins["steps: 20"] == "spec.yaml:2"
     assert origins["robots: 3"] == "base.yaml:5"
     assert origins["name: set"] == "--set"
+
+
+def test_what_is_designed_is_flat():
+    write("base.yaml", BASE.replace("steps: 10", "steps: 10  # of an episode"))
+    rules = "behaviors: {stop: {rules: [otherwise: halt]}}\nstructure: [stop]\n"
+    loaded = load(extending(rules))
+    architecture = given_architecture(compile_meaning(loaded.meaning, compiled=False))
+    text = designed_text(loaded, loaded.meaning, architecture)
+    assert "extends" not in text
+    assert "# of an episode" in text
+    assert load(Source("written.yaml", text)).spec == loaded.spec
 
 
 def test_extends_cannot_be_set():
