@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 LEAST = 2.0
-"""Vectors of 4 or 8 numbers; what a lost loop leaves is about 1."""
+"""Kept loops gain 3 (large tables) to 11 with 8 numbers a vector, lost ones 0.9 to 1.5; one scalar call goes unseen."""
 AGENTS = 400
 
 SHAPES = {
