@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import tempfile
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -117,8 +118,8 @@ def main() -> int:
             first, hand = by_hand(world)
             print(line(first), flush=True)
             for make in (
-                lambda: at_random(world, hand),
-                *((lambda seed=seed: learned(world, seed, hand, Path(name))) for seed in SEEDS),
+                partial(at_random, world, hand),
+                *(partial(learned, world, seed, hand, Path(name)) for seed in SEEDS),
             ):
                 row = make()
                 holds = holds and row.holds

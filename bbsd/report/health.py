@@ -82,7 +82,7 @@ def _figures() -> Finding:
 
 def _cores() -> str:
     allowed = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return f"{allowed} of {os.cpu_count()} may be used; a design uses one, without threads of numba"
+    return f"{allowed} of {os.cpu_count()} may be used; a design uses as many as --jobs says, one by default"
 
 
 def _compiler() -> Finding:
