@@ -22,7 +22,7 @@ SPECS = Path(__file__).parents[1] / "specs"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
 SEEDS = range(5)
 FRESH = keys(name_word("worlds"), 0, 2000)
-BUMP = -10
+BUMP = -5
 """What the mobile robot gets for a bump."""
 
 Floats = npt.NDArray[np.float64]

@@ -7,7 +7,7 @@ from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Level
+from bbsd.expression.graph import Kind, Level
 
 if TYPE_CHECKING:
     from bbsd.compiler.emission import Emitter
@@ -80,23 +80,21 @@ class Decision:
         for bid in bids:
             highest = call("maximum", highest, bid)
         mask = (1 << ACTION_BITS) - 1
-        emitter.blocks[Level.LANE].lines.append(
-            f"{self.frame.actions[robot]} = {call('maximum', highest, '0')} & {mask}"
-        )
+        text = f"{call('maximum', highest, '0')} & {mask}"
+        emitter.blocks[Level.LANE].assign(self.frame.actions[robot], text, Kind.CELL)
 
     def _bid(self, index: int, robot: int, emitter: Emitter) -> str:
         """What a behavior bids for control: its priority and its choice; 0 where it is not activated."""
         frame, module = self.frame, self.frame.episode.modules[index]
-        lines = emitter.blocks[Level.LANE].lines
+        block = emitter.blocks[Level.LANE]
         looked = self._choice(index, robot, emitter)
         choice = frame.namer(frame.robots_name(f"choice_{module.name}", robot))
-        lines.append(f"{choice} = {looked}")
+        block.assign(choice, looked, Kind.CELL)
         excited = emitter.value(module.excited[robot])
         active = f"{choice} > 0" if excited == "True" else f"({choice} > 0) & ({excited})"
         bid = frame.namer(frame.robots_name(f"bid_{module.name}", robot))
-        lines.append(
-            f"{bid} = {frame.call_of('select', active, f'{self.kept[index][0]}[lane] + {choice}', '0')}"
-        )
+        offer = f"{self.kept[index][0]}[lane] + {choice}"
+        block.assign(bid, frame.call_of("select", active, offer, "0"), Kind.CELL)
         return bid
 
     def _choice(self, index: int, robot: int, emitter: Emitter) -> str:

@@ -19,6 +19,10 @@ LOWEST, COMPARISON, SIGN, ATOM = 0, 1, 7, 9
 LONGEST = 88
 DEEPEST = 50
 """Operations within one another at which a value gets a name, however short its text."""
+EXPENSIVE = frozenset(
+    ["acos", "asin", "atan", "atan2", "cos", "exp", "log", "log2", "log10", "power", "sin", "tan", "tanh"]
+)
+"""Operations that have a line, and perhaps a loop, of their own."""
 TOP_BIT = 1 << 63  # a literal from here on is uint64 in compiled code
 
 Text = tuple[str, int]
@@ -32,6 +36,14 @@ class Block:
     level: Level
     lines: list[str] = field(default_factory=list)
     names: dict[int, str] = field(default_factory=dict)
+    kinds: dict[str, Kind] = field(default_factory=dict)
+    """What those names hold that hold no number."""
+
+    def assign(self, name: str, text: str, kind: Kind = Kind.NUMBER) -> None:
+        """Write a line that gives a value its name."""
+        self.lines.append(f"{name} = {text}")
+        if kind is not Kind.NUMBER:
+            self.kinds[name] = kind
 
 
 @dataclass(slots=True)
@@ -97,7 +109,7 @@ class Emitter:
         if self._trivial(node):
             return self.leaf(node), ATOM
         worth_a_name = node.number in self.hints or self.uses[node.number] > 1 or node.level < level
-        if worth_a_name:
+        if worth_a_name or node.operation in EXPENSIVE:
             return self._define(node, self.hints.get(node.number)), ATOM
         text, binds = self._operation(node)
         if len(text) > LONGEST:
@@ -120,7 +132,7 @@ class Emitter:
         stem = {Level.CALL: "fixed", Level.STEP: "now", Level.LANE: "part"}[node.level]
         name = self.namer(wanted) if wanted else self.namer.numbered(stem)
         block = self.blocks[node.level]
-        block.lines.append(f"{name} = {text}")
+        block.assign(name, text, node.kind)
         block.names[node.number] = name
         return name
 

@@ -65,9 +65,12 @@ class Reckoning:
         team = earned[0] if len(earned) == 1 else f"({' + '.join(earned)})"
         lines.append(f"{self.total}[lane] = {self.total}[lane] + {team}")
         for index, name in enumerate(self.credit):
-            lines.append(
-                _added(name, [self._if_controls(index, robot, each) for robot, each in enumerate(earned)])
-            )
+            for robot, each in enumerate(earned):
+                more = f"{name}[lane] + {each}"
+                kept = self.frame.call_of(
+                    "select", self.decision.controls(index, robot), more, f"{name}[lane]"
+                )
+                lines.append(f"{name}[lane] = {kept}")
 
     def _earned_by_robot(self, emitter: Emitter) -> list[str]:
         """The names of what the robots earned; the mean over robots is taken once, at the end of the episode."""

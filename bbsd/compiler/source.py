@@ -12,6 +12,7 @@ from bbsd.compiler.deciding import Decision
 from bbsd.compiler.frame import Detail, Frame, indented
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.reckoning import DETAILED, Reckoning
+from bbsd.compiler.splitting import loops
 from bbsd.expression.graph import Kind, Level, Node
 from bbsd.kernel import functions, streams
 from bbsd.version import __version__
@@ -117,7 +118,8 @@ def _step(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
     lane += [_store(frame, slot, text, frame.episode.after[slot]) for slot, text in after.items()]
     looked_up = decision.look_up()
     all_over = [] if frame.running is None else [f"if {frame.running}.sum() == 0.0:", "    break"]
-    return [*emitter.blocks[Level.STEP].lines, *looked_up, *frame.lane_loop(lane), *all_over]
+    every = [line for part in loops(emitter.blocks[Level.LANE], frame) for line in frame.lane_loop(part)]
+    return [*emitter.blocks[Level.STEP].lines, *looked_up, *every, *all_over]
 
 
 def _after(frame: Frame, emitter: Emitter) -> dict[Slot, str]:
@@ -130,7 +132,7 @@ def _after(frame: Frame, emitter: Emitter) -> dict[Slot, str]:
         found[slot] = emitter.named(node, wanted)
         if node.operation == "slot":
             name = frame.namer(wanted)
-            emitter.blocks[Level.LANE].lines.append(f"{name} = {found[slot]}")
+            emitter.blocks[Level.LANE].assign(name, found[slot], node.kind)
             found[slot] = name
     return found
 

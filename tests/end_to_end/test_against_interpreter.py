@@ -7,10 +7,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
+from bbsd.spec.loading import load
 from bbsd.spec.meaning import mean
 from bbsd.spec.models import Spec
-from bbsd.text.reader import read
-from bbsd.text.source import Source
+from bbsd.text import Source
 from tests.interpreter.cells import given_table
 from tests.interpreter.constants import read_constants
 from tests.interpreter.episode import run_episode
@@ -59,8 +59,8 @@ def digits(numbers):
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_kernels_of_the_shipped_specs(path):
-    spec = Spec.model_validate(read(Source(path.name, path.read_text())).data)
-    problem = compile_meaning(meaning_of(spec, seed=5), compiled=path.stem in COMPILED)
+    meaning = load(Source.read(path), seed=5).meaning
+    problem = compile_meaning(meaning, compiled=path.stem in COMPILED)
     compared(problem, seed=5, generation=1, n_agents=2, agents_seed=1)
 
 

@@ -81,9 +81,12 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
                 earned_0 = select(running_[lane] > 0.0, reward_close_0, 0.0)
                 earned_1 = select(running_[lane] > 0.0, reward_close_1, 0.0)
                 total[lane] = total[lane] + (earned_0 + earned_1)
-                credit_wait[lane] = credit_wait[lane] + select(action_0 == 1, earned_0, 0.0) + select(action_1 == 1, earned_1, 0.0)
-                credit_come[lane] = credit_come[lane] + select((action_0 >= 2) & (action_0 < 4), earned_0, 0.0) + select((action_1 >= 2) & (action_1 < 4), earned_1, 0.0)
-                credit_nobody[lane] = credit_nobody[lane] + select(action_0 == 0, earned_0, 0.0) + select(action_1 == 0, earned_1, 0.0)
+                credit_wait[lane] = select(action_0 == 1, credit_wait[lane] + earned_0, credit_wait[lane])
+                credit_wait[lane] = select(action_1 == 1, credit_wait[lane] + earned_1, credit_wait[lane])
+                credit_come[lane] = select((action_0 >= 2) & (action_0 < 4), credit_come[lane] + earned_0, credit_come[lane])
+                credit_come[lane] = select((action_1 >= 2) & (action_1 < 4), credit_come[lane] + earned_1, credit_come[lane])
+                credit_nobody[lane] = select(action_0 == 0, credit_nobody[lane] + earned_0, credit_nobody[lane])
+                credit_nobody[lane] = select(action_1 == 0, credit_nobody[lane] + earned_1, credit_nobody[lane])
                 running_[lane] = select((next_x_0 < 0.0) | (next_x_1 < 0.0), 0.0, running_[lane])
                 x_0[lane] = next_x_0
                 x_1[lane] = next_x_1
