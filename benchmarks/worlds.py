@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import tempfile
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -18,12 +18,17 @@ from bbsd.evaluation import Interval, agents_of, detailed, interval
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import name_word
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 SPECS = Path(__file__).parents[1] / "specs"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
 SEEDS = range(5)
 FRESH = keys(name_word("worlds"), 0, 2000)
 BUMP = -5
 """What the mobile robot gets for a bump."""
+MARGIN = 0.001
+"""The part of the hand-made design's return by which another may be worse and still count as good."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -78,11 +83,11 @@ def at_random(world: str, hand: Lived) -> Row:
 
 
 def learned(world: str, seed: int, hand: Lived, folder: Path) -> Row:
-    """A learned design: at least as good as the hand-made one."""
+    """A learned design: at least as good as the hand-made one, by the end of the interval or the margin."""
     designed = bbsd.design(SPECS / f"{world}.yaml", seed=seed, out=folder / f"{world}-{seed}")
     found = lived(designed.architecture)
     ahead = interval(found.returns - hand.returns)
-    holds, remark = ahead.high >= 0, ""
+    holds, remark = ahead.high >= -MARGIN * abs(float(hand.returns.mean())), ""
     if world == "mobile_robot":
         remark, well = lamp_and_bumps(found, hand)
         holds = holds and well
@@ -97,7 +102,7 @@ def lamp_and_bumps(found: Lived, hand: Lived | None = None) -> tuple[str, bool]:
     reached = float(np.mean(found.terms["arrived"] > 0))
     bumped = found.terms["bump"]
     few = hand is None or interval(bumped - hand.terms["bump"]).high >= 0
-    return f"lamp {reached:.1%}, bumps {np.mean(bumped) / BUMP:.4f}", few and reached >= 0.95
+    return f"lamp {reached:.1%}, bumps {abs(np.mean(bumped) / BUMP):.4f}", few and reached >= 0.95
 
 
 def line(row: Row) -> str:
@@ -110,18 +115,21 @@ def line(row: Row) -> str:
     ).rstrip()
 
 
+def rows(world: str, folder: Path) -> Iterator[Row]:
+    """All designs of a world, each as soon as it is known."""
+    first, hand = by_hand(world)
+    yield first
+    yield at_random(world, hand)
+    for seed in SEEDS:
+        yield learned(world, seed, hand, folder)
+
+
 def main() -> int:
-    """Print the table, a line as soon as it is known; 1 if one does not hold."""
+    """Print the table, of the worlds named as arguments or of all; 1 if a row does not hold."""
     holds = True
     with tempfile.TemporaryDirectory() as name:
         for world in sys.argv[1:] or WORLDS:
-            first, hand = by_hand(world)
-            print(line(first), flush=True)
-            for make in (
-                partial(at_random, world, hand),
-                *(partial(learned, world, seed, hand, Path(name)) for seed in SEEDS),
-            ):
-                row = make()
+            for row in rows(world, Path(name)):
                 holds = holds and row.holds
                 print(line(row), flush=True)
     return 0 if holds else 1

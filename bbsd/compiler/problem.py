@@ -5,7 +5,6 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
-from math import lgamma, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +17,7 @@ from bbsd.compiler.source import module_source
 from bbsd.compiler.tables import Pool, TableShape, shape_of
 from bbsd.compiler.team import Team
 from bbsd.kernel.modules import load_kernel
-from bbsd.spec.meaning.structure import OPEN_LAYER
+from bbsd.spec.meaning.size import Size, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -66,7 +65,7 @@ class Problem:
     @property
     def has_holes(self) -> bool:
         """Whether anything is left to be designed."""
-        return bool((self.layers == OPEN_LAYER).any()) or any(map(self.evolves, range(self.n_behaviors)))
+        return self.size.open_layers > 0 or self.size.open_cells > 0
 
     def evolves(self, behavior: int) -> bool:
         """Whether a behavior has cells to be designed."""
@@ -75,10 +74,12 @@ class Problem:
     @property
     def decades(self) -> float:
         """The size of the search space, all tables and orders, as a logarithm to base 10."""
-        n, k = len(self.candidates), int(np.count_nonzero(self.layers == OPEN_LAYER))
-        orders = (lgamma(n + 1) - lgamma(n - k + 1)) / log(10)
-        evolved = (table for index, table in enumerate(self.tables) if self.evolves(index))
-        return sum(table.decades for table in evolved) + orders
+        return self.size.decades
+
+    @cached_property
+    def size(self) -> Size:
+        """What is open, and how many designs there are."""
+        return size_of(self.meaning.episode.modules, self.meaning.structure)
 
     @property
     def places(self) -> list[Slot]:

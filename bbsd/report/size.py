@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from bbsd.compiler import compile_meaning
 from bbsd.report.numbers import count
-from bbsd.spec.meaning.structure import OPEN_LAYER
+from bbsd.spec.meaning.size import size_of
 
 if TYPE_CHECKING:
     from bbsd.spec.meaning import Meaning
@@ -16,11 +13,11 @@ if TYPE_CHECKING:
 
 def size_text(meaning: Meaning) -> str:
     """Return the number of behaviors and what is open: `5 behaviors, 21 open cells, 5 open layers, ...`."""
-    problem = compile_meaning(meaning, compiled=False)
-    behaviors = count(problem.n_behaviors, "behavior")
-    if not problem.has_holes:
+    modules = meaning.episode.modules
+    size = size_of(modules, meaning.structure)
+    behaviors = count(len(modules), "behavior")
+    if not size.open_cells and not size.open_layers:
         return f"{behaviors}, nothing open"
-    cells = sum(table.n_open for table in problem.tables)
-    layers = int(np.count_nonzero(problem.layers == OPEN_LAYER))
-    is_open = [count(cells, "open cell")] * bool(cells) + [count(layers, "open layer")] * bool(layers)
-    return ", ".join([behaviors, *is_open, f"search space 10^{problem.decades:.1f}"])
+    cells = [count(size.open_cells, "open cell")] * bool(size.open_cells)
+    layers = [count(size.open_layers, "open layer")] * bool(size.open_layers)
+    return ", ".join([behaviors, *cells, *layers, f"search space 10^{size.decades:.1f}"])
