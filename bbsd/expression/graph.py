@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Mapping
 
 MAX_NODES = 100_000
-MAX_WORK = 1_000_000
+MAX_WORK = 500_000
 """Nodes asked for, those that exist already counted again, with a surcharge for elements of generators."""
 
 
