@@ -4,7 +4,7 @@ PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint unit claims bench clean
+.PHONY: demo test lint unit claims worlds bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml
@@ -38,7 +38,10 @@ $(VENV)/.test: $(BIN)/python pyproject.toml
 	touch $@ $(VENV)/.demo
 
 # Peers that cannot be installed are reported as missing.
-$(VENV)/.bench: $(VENV)/.demo
+$(VENV)/.worlds: $(VENV)/.demo
+	$(BIN)/python benchmarks/worlds.py
+
+bench: $(VENV)/.demo
 	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	touch $@
 
