@@ -23,6 +23,9 @@ unit: $(VENV)/.test
 claims: $(VENV)/.demo
 	$(BIN)/python benchmarks/claims.py
 
+worlds: $(VENV)/.demo
+	$(BIN)/python benchmarks/worlds.py
+
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
 
@@ -38,10 +41,7 @@ $(VENV)/.test: $(BIN)/python pyproject.toml
 	touch $@ $(VENV)/.demo
 
 # Peers that cannot be installed are reported as missing.
-$(VENV)/.worlds: $(VENV)/.demo
-	$(BIN)/python benchmarks/worlds.py
-
-bench: $(VENV)/.demo
+$(VENV)/.bench: $(VENV)/.demo
 	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	touch $@
 
