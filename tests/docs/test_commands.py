@@ -21,5 +21,5 @@ def test_commands_that_pages_name_exist():
 def test_options_that_pages_name_exist():
     tool = get_command(app)
     commands = [tool, *tool.commands.values()]
-    known = {option for command in commands for each in command.params for option in each.opts}
+    known = {option for command in commands for each in command.params for option in each.opts} | {"--help"}
     assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", TEXT)) - {"--update-golden"} <= known
