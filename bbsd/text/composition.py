@@ -25,6 +25,7 @@ MAX_NODES = 50_000
 MAX_DEPTH = 40
 MAX_TEXT = 10_000
 MAX_NUMBER = 100
+TOO_DEEP = f"this is nested more than {MAX_DEPTH} levels deep"
 UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -65,8 +66,7 @@ class _Reading:
             message = f"there are more than {MAX_NODES} keys and values, with aliases expanded"
             raise _RefusedError(self.diagnosis("BB011", message, event))
         if self.deepest > MAX_DEPTH:
-            message = f"this is nested more than {MAX_DEPTH} levels deep"
-            raise _RefusedError(self.diagnosis("BB012", message, event))
+            raise _RefusedError(self.diagnosis("BB012", TOO_DEEP, event))
 
 
 def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
@@ -80,8 +80,15 @@ def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
     except _RefusedError as refused:
         return None, [*reading.mistakes, refused.diagnosis]
     except MarkedYAMLError as error:
-        end = explain(source, error)
+        end = _too_deep(source, error) or explain(source, error)
         return None, [*(each for each in reading.mistakes if not _same_start(each, end)), end]
+
+
+def _too_deep(source: Source, error: MarkedYAMLError) -> Diagnosis | None:
+    """The parser looks ahead for keys, and from PyYAML 6.0.4 on its own bound of depth may come before ours."""
+    if "nesting depth" not in (error.problem or "") or error.problem_mark is None:
+        return None
+    return Diagnosis("BB012", TOO_DEEP, source.place(error.problem_mark.index))
 
 
 def _same_start(one: Diagnosis, other: Diagnosis) -> bool:
