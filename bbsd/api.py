@@ -44,7 +44,7 @@ from bbsd.spec.loading import check as check_source
 from bbsd.spec.loading import load as load_source
 from bbsd.spec.meaning import Meaning, seed_key
 from bbsd.spec.overrides import read_overrides
-from bbsd.text import DELETE, Source, replace_blocks
+from bbsd.text import DELETE, Source, replace_blocks, without_relative_modeline
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -251,10 +251,13 @@ def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
 def designed_text(
     loaded: Loaded, meaning: Meaning, architecture: Architecture, overrides: Sequence[str] = ()
 ) -> str:
-    """The designer's file with what was set and its holes filled; everything else is as it was."""
+    """The designer's file with what was set and its holes filled; everything else is as it was.
+
+    But for a comment that names an editor's schema by a relative path: in a run's folder that leads nowhere.
+    """
     given = {each.path: DELETE if each.value is None else each.value for each in read_overrides(overrides)}
     changes = {**given, **spec_changes(meaning, architecture)}
-    return replace_blocks(loaded.lineage.flat, changes, after="behaviors")
+    return without_relative_modeline(replace_blocks(loaded.lineage.flat, changes, after="behaviors"))
 
 
 def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:

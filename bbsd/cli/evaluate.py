@@ -9,6 +9,7 @@ import typer
 import bbsd
 from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import has_blocks, require_writable, say, show, show_table
+from bbsd.errors import UsageError
 from bbsd.report.csv_text import csv_text
 from bbsd.report.figures import episode, require_figure
 from bbsd.report.numbers import column
@@ -16,9 +17,16 @@ from bbsd.report.plain import evaluation_plain, json_text
 
 if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation
+    from bbsd.spec.loading import Loaded
 
 TOO_LOW = 1
-"""The exit code where a mean is below --at-least."""
+"""The exit code where a mean is below --at-least, or a share below --expect-at-least."""
+
+
+class NothingExpected(UsageError):
+    """Expectations are required of a spec without any."""
+
+    advice = "give a behavior expects: CONDITION, or leave the option out"
 
 
 class Fill(StrEnum):
@@ -33,6 +41,12 @@ def evaluate(
     seed: Seed = 0,
     at_least: Annotated[
         float | None, typer.Option(metavar="X", help="Leave with 1 if the mean return is below this.")
+    ] = None,
+    expect_at_least: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SHARE", min=0, max=1, help="Leave with 1 if an expectation holds in less of its steps."
+        ),
     ] = None,
     fill: Annotated[
         Fill | None, typer.Option(help="Fill what is open at random instead of refusing it.")
@@ -52,14 +66,17 @@ def evaluate(
 ) -> None:
     """Measure what a design earns.
 
-    Lives fresh episodes and shows their return, how much of it each reward term gave, and which behaviors
-    were in control.
+    Lives fresh episodes and shows their return, how much of it each reward term gave, which behaviors
+    were in control, and how often what they expect came true.
     """
     if fill and (exact or trace or plot):
         raise typer.BadParameter("--exact, --trace and --plot are of one design, --fill is of many")
     _require_outputs(trace, plot)
+    loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
+    if expect_at_least is not None:
+        _require_expectations(loaded)
     evaluation = bbsd.evaluate(
-        spec,
+        loaded,
         episodes=episodes,
         seed=seed,
         fill="random" if fill else None,
@@ -67,14 +84,20 @@ def evaluate(
         exact=exact,
         lanes=lanes,
         jobs=jobs,
-        overrides=overrides or (),
     )
     _show(evaluation, as_json=as_json)
     if trace or plot:
-        _write_episode(spec, seed, overrides, trace, plot)
-    if at_least is not None and not evaluation.mean >= at_least:
-        say(_shortfall(evaluation.mean, at_least))
+        _write_episode(loaded, seed, trace, plot)
+    failures = [*_too_low(evaluation, at_least), *_too_rare(evaluation, expect_at_least)]
+    for failure in failures:
+        say(failure)
+    if failures:
         raise typer.Exit(TOO_LOW)
+
+
+def _require_expectations(loaded: "Loaded") -> None:
+    if all(behavior.expects is None for behavior in loaded.spec.behaviors.values()):
+        raise NothingExpected("--expect-at-least: no behavior of this spec expects anything")
 
 
 def _require_outputs(trace: Path | None, plot: Path | None) -> None:
@@ -94,10 +117,7 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
     show_table(evaluation_table(evaluation, blocks=has_blocks()))
 
 
-def _write_episode(
-    spec: Path, seed: int, overrides: Overrides, trace: Path | None, plot: Path | None
-) -> None:
-    loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
+def _write_episode(loaded: "Loaded", seed: int, trace: Path | None, plot: Path | None) -> None:
     lived = bbsd.trace(loaded, seed=seed)
     if trace:
         trace.write_text(csv_text(lived), encoding="utf-8")
@@ -105,6 +125,18 @@ def _write_episode(
         episode(lived, loaded.spec, plot)
 
 
-def _shortfall(mean: float, wanted: float) -> str:
-    mean_text, wanted_text, by = column([mean, wanted, wanted - mean])
-    return f"bbsd: the mean return {mean_text} is below {wanted_text} by {by}"
+def _too_low(evaluation: "Evaluation", wanted: float | None) -> list[str]:
+    if wanted is None or evaluation.mean >= wanted:
+        return []
+    mean_text, wanted_text, by = column([evaluation.mean, wanted, wanted - evaluation.mean])
+    return [f"bbsd: the mean return {mean_text} is below {wanted_text} by {by}"]
+
+
+def _too_rare(evaluation: "Evaluation", wanted: float | None) -> list[str]:
+    """What does not hold often enough; what is expected of a behavior that never controls does not fail."""
+    shares = evaluation.expectation_share.items() if wanted is not None else ()
+    return [
+        f"bbsd: what {name} expects held in {share:.4g} of its steps, below {wanted:g} by {wanted - share:.2g}"
+        for name, share in shares
+        if wanted is not None and share < wanted
+    ]

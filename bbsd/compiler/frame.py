@@ -121,6 +121,7 @@ class Frame:
         wanted += [] if episode.ends is None else [episode.ends]
         if self.detail is not Detail.CREDIT:
             wanted += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
+            wanted += [node for nodes in episode.expects.values() for node in nodes]
         if self.detail is Detail.TRACE:
             wanted += [*episode.after.values(), *self.traced_definitions.values()]
         kept: set[Slot] = set()

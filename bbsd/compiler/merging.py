@@ -32,6 +32,7 @@ def merged(meaning: Meaning) -> Meaning:
     every += [node for module in episode.modules for node in _nodes_of(module)]
     every += [node for nodes in episode.reward.values() for node in nodes]
     every += [episode.ends] if episode.ends is not None else []
+    every += [node for nodes in episode.expects.values() for node in nodes]
     found = _read_from(groups, every, meaning.graph)
     changed = replace(
         episode,
@@ -41,6 +42,9 @@ def merged(meaning: Meaning) -> Meaning:
         definitions={slot: found[node.number] for slot, node in episode.definitions.items()},
         reward={term: tuple(found[node.number] for node in nodes) for term, nodes in episode.reward.items()},
         ends=None if episode.ends is None else found[episode.ends.number],
+        expects={
+            name: tuple(found[node.number] for node in nodes) for name, nodes in episode.expects.items()
+        },
     )
     return replace(meaning, episode=changed)
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.names import Slot
 
-DETAILED = ("terms", "control", "taken", "odd")
+DETAILED = ("terms", "control", "taken", "odd", "held")
 
 
 @dataclass
@@ -52,6 +52,7 @@ class Reckoning:
             "control": [frame.keep(f"steps_{name}") for name in self._who],
             "odd": [frame.keep(f"odd_{slot_text(slot, frame.robots)}") for slot in odd_slots(frame.meaning)],
             "taken": [frame.keep("taken_")],
+            "held": [frame.keep(f"held_{name}") for name in frame.episode.expects],
         }
 
     def start(self) -> list[str]:
@@ -106,6 +107,11 @@ class Reckoning:
             finite = frame.call_of("is_finite", emitter.value(frame.episode.after[slot]))
             lines.append(_added(name, [frame.call_of("select", finite, "0.0", step)]))
         lines.append(_added(self.details["taken"][0], [step]))
+        names = [shape.name for shape in frame.shapes]
+        for (behavior, nodes), name in zip(frame.episode.expects.items(), self.details["held"], strict=True):
+            index, holds = names.index(behavior), [emitter.value(node) for node in nodes]
+            steps = [frame.call_of("select", text, step, "0.0") for text in holds]
+            lines.append(_added(name, [self._if_controls(index, robot, steps[robot]) for robot in robots]))
 
     def record(self, emitter: Emitter) -> None:
         """Note everything of a step in its row of the record."""
@@ -114,10 +120,28 @@ class Reckoning:
             *(emitter.value(node) for node in frame.episode.after.values()),
             *(emitter.value(node) for node in frame.traced_definitions.values()),
             *frame.actions,
+            *self._expectations(emitter),
             *(self.earned[term, robot] for term in frame.episode.reward for robot in range(frame.robots)),
         ]
         lines = [f"record[step - 1, {column}] = {text}" for column, text in enumerate(columns)]
         emitter.blocks[Level.LANE].lines += lines
+
+    def _expectations(self, emitter: Emitter) -> list[str]:
+        """For each robot 2 where what the controlling one expects holds, 1 where not, 0 where it expects nothing."""
+        frame, names = self.frame, [shape.name for shape in self.frame.shapes]
+        if not frame.episode.expects:
+            return []
+        return [
+            " + ".join(
+                self._if_controls(
+                    names.index(behavior),
+                    robot,
+                    frame.call_of("select", emitter.value(nodes[robot]), "2.0", "1.0"),
+                )
+                for behavior, nodes in frame.episode.expects.items()
+            )
+            for robot in range(frame.robots)
+        ]
 
     def finish(self) -> list[str]:
         """Write the sums to where the caller reads them."""

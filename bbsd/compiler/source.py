@@ -154,5 +154,6 @@ def traced_columns(meaning: Meaning) -> list[tuple[str, Slot]]:
             if node.kind is not Kind.UNKNOWN
         ),
         *(("choice", ("controlling", robot, ())) for robot in robots),
+        *(("expectation", ("expectation", robot, ())) for robot in robots if episode.expects),
         *(("reward", (term, robot, ())) for term in episode.reward for robot in robots),
     ]

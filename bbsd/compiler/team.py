@@ -44,7 +44,8 @@ class DetailedOutcome:
     """An episode of every agent in detail.
 
     returns (n,), credit (n, n_behaviors + 1), terms (n, n_terms) in the spec's order, control (n, n_behaviors + 1)
-    robot-steps by behavior and nobody, taken (n,) steps, odd (n, n_places) steps in which a value was not finite.
+    robot-steps by behavior and nobody, taken (n,) steps, odd (n, n_places) steps in which a value was not finite,
+    held (n, n_expectations) robot-steps in which a behavior with an expectation controlled and it held after them.
     """
 
     returns: Floats
@@ -53,6 +54,7 @@ class DetailedOutcome:
     control: Floats
     taken: Floats
     odd: Floats
+    held: Floats
 
 
 class Team:
@@ -85,39 +87,29 @@ class Team:
 
     def detailed_episode(self, keys: Keys, structures: Integers) -> DetailedOutcome:
         """The same episode with everything that an evaluation reports."""
-        n_behaviors, size = self.problem.n_behaviors, self.size
-        returns, taken = self._outputs(1)[0], self._outputs(1)[0]
-        credit, control = self._outputs(n_behaviors + 1), self._outputs(n_behaviors + 1)
-        terms, odd = (
-            self._outputs(len(self.problem.meaning.episode.reward)),
-            self._outputs(len(self.problem.places)),
-        )
-        inputs = self._inputs(keys, structures)
-        self._live(self.problem.rollout_detailed, *inputs, returns, credit, terms, control, taken, odd)
-        return DetailedOutcome(
-            returns[:size],
-            credit[:, :size].T,
-            terms[:, :size].T,
-            control[:, :size].T,
-            taken[:size],
-            odd[:, :size].T,
-        )
+        arrays = self._detailed_outputs()
+        self._live(self.problem.rollout_detailed, *self._inputs(keys, structures), *arrays)
+        returns, credit, terms, control, taken, odd, held = (array.T[: self.size] for array in arrays)
+        return DetailedOutcome(returns, credit, terms, control, taken, odd, held)
 
     def traced_episode(
         self, rollout: Callable[..., None], key: int, structure: Integers, record: Floats
     ) -> int:
         """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken."""
-        n_behaviors, keys = self.problem.n_behaviors, np.array([key], np.uint64)
-        returns, taken = self._outputs(1)[0], self._outputs(1)[0]
-        credit, control = self._outputs(n_behaviors + 1), self._outputs(n_behaviors + 1)
-        terms, odd = (
-            self._outputs(len(self.problem.meaning.episode.reward)),
-            self._outputs(len(self.problem.places)),
-        )
+        keys, arrays = np.array([key], np.uint64), self._detailed_outputs()
+        *_, taken, _odd, _held = arrays
         inputs = self._inputs(np.resize(keys, self.size), np.resize(structure, (self.size, len(structure))))
         with np.errstate(all="ignore"):
-            rollout(0, 1, *inputs, returns, credit, terms, control, taken, odd, record)
+            rollout(0, 1, *inputs, *arrays, record)
         return int(taken[0])
+
+    def _detailed_outputs(self) -> list[Floats]:
+        """Zeros for what a detailed rollout writes, in the order of its arguments."""
+        episode, who = self.problem.meaning.episode, self.problem.n_behaviors + 1
+        lanes, rows = (self._keys.size,), (who, len(episode.reward), who)
+        shapes = [lanes, *((n, *lanes) for n in rows), lanes]
+        shapes += [(len(self.problem.places), *lanes), (len(episode.expects), *lanes)]
+        return [np.zeros(shape) for shape in shapes]
 
     def _live(self, rollout: Callable[..., None], *arrays: object) -> None:
         """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock."""

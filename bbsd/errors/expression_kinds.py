@@ -158,7 +158,7 @@ EXPRESSION_KINDS = (
         title="before(...) where nothing was before",
         explanation=(
             "before(e) is e as it was when the behaviors decided. It has a meaning in dynamics, sensors, "
-            "the reward and ends, not where the decision is made."
+            "the reward, ends, and what a behavior expects, not where the decision is made."
         ),
         example="behaviors:\n  stop:\n    excited: height > before(height)",
         mend=(
@@ -175,7 +175,8 @@ EXPRESSION_KINDS = (
         title="not known here",
         explanation=(
             "Sensors are not known when the starting values are made, the generation only in constants "
-            "and mutation rates, the episode only in the learning rate."
+            "and mutation rates, the episode only in the learning rate. A behavior knows its own robot's "
+            "state and sensors; of the world and of other robots it knows what a sensor tells it."
         ),
         example="reward:\n  near: generation",
         mend="constants:\n  bonus: generation\nreward:\n  near: bonus",

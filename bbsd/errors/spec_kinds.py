@@ -250,11 +250,12 @@ SPEC_KINDS = (
         code="BB041",
         title="an input that is no sensor",
         explanation=(
-            "A list of inputs names sensors that are partitions. What only one behavior looks at can be "
-            "partitioned there: inputs is then a mapping from a name to what it cuts."
+            "A list of inputs names sensors that are partitions, and truths of the robot's own state. What "
+            "only one behavior looks at can be partitioned there: inputs is then a mapping from a name to "
+            "what it cuts."
         ),
-        example="behaviors:\n  stop:\n    inputs: [height]",
-        mend="behaviors:\n  stop:\n    inputs:\n      height: cut(height, 3)",
+        example="environment:\n  definitions:\n    high: height > 3\nbehaviors:\n  stop:\n    inputs: [high]",
+        mend="environment:\n  sensors:\n    high: height > 3\nbehaviors:\n  stop:\n    inputs: [high]",
     ),
     Kind(
         code="BB042",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import fsum, sqrt
 from statistics import NormalDist
 from typing import TYPE_CHECKING
@@ -59,6 +59,11 @@ class Evaluation:
     """Mean length of an episode."""
     not_finite: dict[str, int]
     """Steps in which a value was infinite or not a number, by its name; only those that were."""
+    expectation_share: dict[str, float] = field(default_factory=dict)
+    """By behavior that expects something: of the robot-steps that it controlled, those after which that held.
+
+    NaN where it never controlled.
+    """
     exact: bool = False
 
     @property
@@ -84,15 +89,16 @@ def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: in
     """
     parts = [_sums(outcome) for outcome in outcomes]
     returns = np.concatenate([part.returns for part in parts])
-    terms, control, odd = (
-        column_sums(np.stack([getattr(part, name) for part in parts])) for name in ("terms", "control", "odd")
+    terms, control, odd, held = (
+        column_sums(np.stack([getattr(part, name) for part in parts]))
+        for name in ("terms", "control", "odd", "held")
     )
     taken = fsum(float(part.taken[0]) for part in parts)
     spread = interval(returns)
     if agents > 1:
         by_agent = interval(row_means(returns.reshape(agents, -1)))
         spread = Interval(spread.mean, spread.sd, by_agent.low, by_agent.high, len(returns))
-    named = _named(problem, terms, control, taken, odd, float(len(returns)))
+    named = _named(problem, terms, control, taken, odd, held, float(len(returns)))
     return Evaluation(spread, len(returns), agents, *named)
 
 
@@ -105,22 +111,24 @@ def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
         control=column_sums(outcome.control),
         taken=column_sums(outcome.taken[:, None]),
         odd=column_sums(outcome.odd),
+        held=column_sums(outcome.held),
     )
 
 
 def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], weights: Floats) -> Evaluation:
     """The exact expectation over all episodes there can be, each with its probability; weights (n,) sum to 1."""
     parts = list(outcomes)
-    returns, terms, control, taken, odd = (
+    returns, terms, control, taken, odd, held = (
         np.concatenate([getattr(part, name) for part in parts])
-        for name in ("returns", "terms", "control", "taken", "odd")
+        for name in ("returns", "terms", "control", "taken", "odd", "held")
     )
     center = expectation(weights, returns)
     sd = sqrt(expectation(weights, (returns - center) ** 2))
-    by_term, by_control = (
-        np.array([expectation(weights, column) for column in columns.T]) for columns in (terms, control)
+    by_term, by_control, by_held = (
+        np.array([expectation(weights, column) for column in columns.T]) for columns in (terms, control, held)
     )
-    named = _named(problem, by_term, by_control, expectation(weights, taken), column_sums(odd), 1.0)
+    steps, counts = expectation(weights, taken), column_sums(odd)
+    named = _named(problem, by_term, by_control, steps, counts, by_held, 1.0)
     return Evaluation(Interval(center, sd, center, center, len(weights)), len(weights), 1, *named, exact=True)
 
 
@@ -130,8 +138,9 @@ def _named(
     control: Floats,
     taken: float,
     odd: Floats,
+    held: Floats,
     episodes: float,
-) -> tuple[dict[str, float], dict[str, float], float, dict[str, int]]:
+) -> tuple[dict[str, float], dict[str, float], float, dict[str, int], dict[str, float]]:
     """Sums as named means and shares."""
     robots = problem.meaning.spec.environment.robots
     who = (*problem.names, "nobody")
@@ -143,4 +152,9 @@ def _named(
     counts = {
         slot_text(slot, robots): int(value) for slot, value in zip(problem.places, odd, strict=True) if value
     }
-    return by_term, share, taken / episodes, counts
+    in_control = dict(zip(who, control, strict=True))
+    expected = {
+        name: float(value) / float(in_control[name]) if in_control[name] else float("nan")
+        for name, value in zip(problem.meaning.episode.expects, held, strict=True)
+    }
+    return by_term, share, taken / episodes, counts, expected

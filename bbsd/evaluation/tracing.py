@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.spec.meaning.names import Slot
+
+EXPECTATION = ("", "failed", "held")
+"""What the numbers of a record mean."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -36,6 +39,11 @@ class Trace:
     actions: list[list[str]]
     rewards: dict[str, list[Floats]]
     robots: int
+    expectations: list[list[str]] = field(default_factory=list)
+    """For each robot whether what its controlling behavior expects `held` or `failed`, '' where that expects nothing.
+
+    Empty where no behavior of the spec expects anything.
+    """
 
     @property
     def columns(self) -> list[str]:
@@ -49,6 +57,7 @@ class Trace:
                 for robot in robots
                 for what in ("controlling", "action")
             ),
+            *(slot_text(("expectation", robot, ()), self.robots) for robot in range(len(self.expectations))),
             *(
                 slot_text((f"reward_{term}", robot, ()), self.robots)
                 for term in self.rewards
@@ -63,7 +72,8 @@ class Trace:
             each for robot in range(self.robots) for each in (self.controlling[robot], self.actions[robot])
         ]
         earned = [values.tolist() for robots in self.rewards.values() for values in robots]
-        return list(zip(self.steps.tolist(), *self.values.values(), *words, *earned, strict=True))
+        columns = (*self.values.values(), *words, *self.expectations, *earned)
+        return list(zip(self.steps.tolist(), *columns, strict=True))
 
 
 def trace(problem: Problem, architecture: Architecture, key: int, generation: int) -> Trace:
@@ -89,10 +99,13 @@ def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> 
     controlling: list[list[str]] = []
     actions: list[list[str]] = []
     rewards: dict[str, list[Floats]] = {}
+    expectations: list[list[str]] = []
     for (what, slot), column in zip(columns, record.T, strict=True):
         if what == "choice":
             controlling.append([names[int(number)][0] for number in column])
             actions.append([names[int(number)][1] for number in column])
+        elif what == "expectation":
+            expectations.append([EXPECTATION[int(number)] for number in column])
         elif what == "reward":
             rewards.setdefault(slot[0], []).append(column)
         else:
@@ -101,7 +114,8 @@ def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> 
                 [cells[int(value)] for value in column] if cells else [float(value) for value in column]
             )
     robots = problem.meaning.spec.environment.robots
-    return Trace(np.arange(1, len(record) + 1), values, controlling, actions, rewards, robots)
+    steps = np.arange(1, len(record) + 1)
+    return Trace(steps, values, controlling, actions, rewards, robots, expectations)
 
 
 def _cells_of(problem: Problem, slot: Slot) -> tuple[str, ...]:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture, JointSpace
     from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.behaviors import Module
+    from bbsd.spec.written import Expression
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +44,7 @@ class LayerInWords:
     layer: int
     behavior: str
     excited: str | None
+    expects: str | None
     rules: tuple[RuleInWords, ...]
     overruled: tuple[str, ...]
     effective: tuple[str, ...]
@@ -115,7 +117,7 @@ def _layer(
 ) -> LayerInWords:
     behavior = int(architecture.structure[layer])
     module, table = meaning.episode.modules[behavior], architecture.tables[behavior]
-    written = meaning.spec.behaviors[module.name].excited
+    written = meaning.spec.behaviors[module.name]
     control = _control(space, behavior, table, controls)
     lost = control.acts & ~control.controls
     rules, whole = _rules(module, table, control)
@@ -124,13 +126,18 @@ def _layer(
     return LayerInWords(
         layer=layer + 1,
         behavior=module.name,
-        excited=None if written is None else " ".join(written.text.split()),
+        excited=_said(written.excited),
+        expects=_said(written.expects),
         rules=rules,
         overruled=places(lost & ~whole, whole | ~control.acts, module.inputs),
         effective=places(control.controls, ~control.acts, module.inputs) if lost.any() else (),
         overruled_by=tuple(names[other] for other in above),
         cells=None if controls is None else int(np.count_nonzero(controls == behavior)),
     )
+
+
+def _said(condition: Expression | None) -> str | None:
+    return None if condition is None else " ".join(condition.text.split())
 
 
 def _control(

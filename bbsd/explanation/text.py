@@ -59,7 +59,8 @@ def _layers(layers: Sequence[LayerInWords]) -> list[str]:
 def _sentences(layer: LayerInWords) -> list[str]:
     """What a layer does, and what it does not come to do; each begins a line."""
     excited = [] if layer.excited is None else [f"when {layer.excited}:"]
-    return [*excited, *_rules(layer), *_remarks(layer)]
+    expects = [] if layer.expects is None else [f"Expects afterwards: {layer.expects}"]
+    return [*excited, *_rules(layer), *_remarks(layer), *expects]
 
 
 def _rules(layer: LayerInWords) -> list[str]:

@@ -39,7 +39,8 @@ def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
 def _inputs(spec: Spec, behavior: Behavior) -> dict[str, PartitionText]:
     if isinstance(behavior.inputs, dict):
         return behavior.inputs
-    return {name: spec.environment.sensors[name] for name in behavior.inputs}
+    known = {**spec.environment.state, **spec.environment.sensors}
+    return {name: known[name] for name in behavior.inputs}
 
 
 def _partition(written: PartitionText) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from bbsd.expression.checks import has_arguments, known_whole, of_kind
 from bbsd.expression.graph import Kind
+from bbsd.expression.lookup import unseen
 from bbsd.expression.tree import Call, Each, Name
 
 if TYPE_CHECKING:
@@ -134,9 +135,8 @@ def _unpacked(each: Each, item: Value, scope: Scope) -> dict[str, Value] | None:
 
 def _source(each: Each, scope: Scope, elaborate: Elaborate) -> Sequence[Value] | None:
     match each.source:
-        case Name(name="team" | "others" as name) if scope.alone:
-            message = f"a behavior knows only its own robot, so there is no {name} here"
-            scope.mistake("BB066", message, each.source.span, "make a sensor of it and use that")
+        case Name(name="team" | "others" as name) if scope.behavior:
+            unseen("the whole team" if name == "team" else "the other robots", each.source.span, scope)
             return None
         case Name(name="team"):
             return [scope.graph.number(robot) for robot in range(scope.robots)]

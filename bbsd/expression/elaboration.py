@@ -240,7 +240,7 @@ def _function(expr: Call, scope: Scope) -> Node:
 def _before(expr: Call, scope: Scope) -> Value:
     earlier = scope if scope.starting else scope.before
     if earlier is None:
-        message = "before(...) has a meaning only after the decision: in dynamics, sensors, reward and ends"
+        message = "before(...) has a meaning only after the decision: in dynamics, sensors, reward, ends and expects"
         return scope.mistake("BB065", message, expr.span)
     if not has_arguments(expr, 1, scope):
         return scope.graph.unknown

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.checks import has_arguments, of_kind
@@ -17,12 +18,17 @@ from bbsd.expression.scope import (
     PerRobot,
     Scope,
     Shared,
+    Unseen,
     Unusable,
     Value,
 )
-from bbsd.expression.tree import Call, Expr, Index, Name, Number, Unary
+from bbsd.expression.text import render
+from bbsd.expression.tree import Call, Expr, Index, Name, Number, Span, Unary
 from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
 from bbsd.kernel.functions import clamp_index
+
+LONGEST = 60
+"""Characters of an expression that an advice repeats."""
 
 Elaborate: TypeAlias = Callable[[Expr, Scope], Value]
 """What gives the value of any expression in a scope."""
@@ -57,6 +63,8 @@ def _without_value(expr: Name, scope: Scope) -> Node:
         case Definition(parameters=parameters):
             message = f"{name} needs arguments: {name}({', '.join(parameters)})"
             return scope.mistake("BB054", message, span)
+        case Unseen():
+            return unseen(f"{name} of the world", span, scope, name)
         case Unusable(code=code, reason=reason, advice=advice):
             return scope.mistake(code, reason, span, advice) if reason else scope.graph.unknown
     return scope.mistake("BB052", _unknown(name, scope), span)
@@ -68,6 +76,16 @@ def _unknown(name: str, scope: Scope) -> str:
     if name in ("team", "others"):
         return f"{name} can only stand after in: max(x[r] for r in {name})"
     return f'unknown name "{name}"{did_you_mean(name, [*scope.local, *scope.names, *CONSTANTS])}'
+
+
+def unseen(what: str, span: Span, scope: Scope, expression: str = "", via: str = "") -> Node:
+    """Tell that a behavior cannot know what it uses, by a definition or itself; advise a sensor of an expression."""
+    scope.findings.unseen.append(what)
+    used = f"{via}, which reads {what}" if via else what
+    message = f"{scope.behavior} uses {used}; a behavior knows only its own robot's state and sensors"
+    name = via or re.split(r"\W", expression)[0]
+    example = f", such as sensed_{name}: {expression}," if 0 < len(expression) <= LONGEST else ""
+    return scope.mistake("BB066", message, span, f"make a sensor of it{example} and use that")
 
 
 def call_definition(expr: Call, definition: Definition, scope: Scope, elaborate: Elaborate) -> Value:
@@ -88,20 +106,24 @@ def _definition(
     key = (name, scope.robot, arguments)
     if key not in scope.memo:
         local = dict(zip(definition.parameters, arguments, strict=True))
-        findings = Findings() if scope.alone else scope.findings
+        findings = Findings() if scope.behavior else scope.findings
         inner = replace(scope, path=definition.path, local=local, draws=None, findings=findings)
         scope.memo[key] = elaborate(definition.expression, inner)
-        if scope.alone and any(mistake.code == "BB066" for _, mistake in findings.mistakes):
-            message = f"{name} depends on other robots or the world, which a behavior does not know"
-            scope.memo[key] = scope.mistake("BB066", message, use.span, "make a sensor of it and use that")
-        elif scope.alone:
+        if scope.behavior and findings.unseen:
+            scope.memo[key], scope.unseen[key] = scope.graph.unknown, findings.unseen[0]
+        elif scope.behavior:
             scope.findings.wholes += findings.wholes
             scope.findings.mistakes.update(findings.mistakes)
+    if key in scope.unseen:
+        return unseen(scope.unseen[key], use.span, scope, "" if scope.local else render(use), name)
     return scope.memo[key]
 
 
 def index(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
     """The element of a list, or what one robot has."""
+    if scope.behavior and _is_robots_own(expr.of, scope, elaborate):
+        what = f"{cast('Name', expr.of).name} of another robot"
+        return unseen(what, expr.of.span, scope, "" if scope.local else render(expr))
     chosen = of_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
     items = _robots_values(expr.of, chosen, scope, elaborate) or elaborate(expr.of, scope)
     if isinstance(items, Node):
@@ -120,9 +142,6 @@ def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -
     if not isinstance(of, Name) or of.name in scope.local:
         return None
     found = scope.names.get(of.name)
-    if scope.alone and isinstance(found, PerRobot | Definition) and not _is_list(of, scope, elaborate):
-        message = "a behavior knows only its own robot; what others do must be sensed"
-        return (scope.mistake("BB066", message, of.span, "make a sensor of it and use that"),)
     if not (isinstance(found, PerRobot) or (isinstance(found, Definition) and not found.parameters)):
         return None
     values: list[Value] = [scope.graph.unknown] * scope.robots
@@ -134,8 +153,14 @@ def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -
     return tuple(values)
 
 
-def _is_list(of: Name, scope: Scope, elaborate: Elaborate) -> bool:
-    return isinstance(name_value(of, scope, elaborate), tuple)
+def _is_robots_own(of: Expr, scope: Scope, elaborate: Elaborate) -> bool:
+    """Whether what is indexed names one value for each robot, not a list that the behavior's robot has."""
+    if not isinstance(of, Name) or of.name in scope.local:
+        return False
+    found = scope.names.get(of.name)
+    if not isinstance(found, PerRobot | Definition):
+        return False
+    return not isinstance(name_value(of, scope, elaborate), tuple)
 
 
 def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> Value:

@@ -61,7 +61,12 @@ class Unusable:
     advice: str = ""
 
 
-Binding = Shared | Deferred | PerRobot | Definition | Unusable
+@dataclass(frozen=True, slots=True)
+class Unseen:
+    """A value of the world, where a behavior would use it: it must be sensed."""
+
+
+Binding = Shared | Deferred | PerRobot | Definition | Unusable | Unseen
 
 
 @dataclass(slots=True)
@@ -74,6 +79,8 @@ class Findings:
     """Values that must turn out to be whole numbers, and what for."""
     entered: tuple[Path, Span] = ((), WHOLE)
     """The expression that was begun last."""
+    unseen: list[str] = field(default_factory=list)
+    """What a behavior would need to know of the world and of other robots."""
 
     def tell(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
         """Add a mistake; raises TooManyMistakesError when no more are wanted."""
@@ -101,8 +108,8 @@ class Scope:
     robots: int = 1
     robot: int | None = None
     """None where the team is meant."""
-    alone: bool = False
-    """For a behavior, which knows only its own robot: what others do must be sensed."""
+    behavior: str = ""
+    """The behavior that this is for, if any, which knows only its own robot: what others do must be sensed."""
     path: Path = ()
     local: Mapping[str, Value] = field(default_factory=dict)
     before: Scope | None = None
@@ -115,6 +122,8 @@ class Scope:
     """The value of a constant node, where it is the same for the whole run."""
     memo: dict[Hashable, Value] = field(default_factory=dict)
     """Values of definitions in this phase."""
+    unseen: dict[Hashable, str] = field(default_factory=dict)
+    """Of those, what the behavior would need to know that it does not."""
 
     def at(self, path: Path, robot: int | None = None, *, draws: bool = False) -> Scope:
         """The same names for another expression."""

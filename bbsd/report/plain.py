@@ -21,7 +21,7 @@ def json_text(plain: Plain) -> str:
 
 
 def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
-    """Return what an evaluation found; `not_finite` only where a value was not."""
+    """Return what an evaluation found; `expectation_share` and `not_finite` only where there are any."""
     plain: dict[str, Plain] = {
         "return": interval_plain(evaluation.returns),
         "episodes": evaluation.episodes,
@@ -31,6 +31,9 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
         "reward_terms": {name: finite(value) for name, value in evaluation.reward_terms.items()},
         "control_share": {name: finite(value) for name, value in evaluation.control_share.items()},
     }
+    if evaluation.expectation_share:
+        shares = evaluation.expectation_share
+        plain["expectation_share"] = {name: finite(value) for name, value in shares.items()}
     if evaluation.not_finite:
         plain["not_finite"] = dict(evaluation.not_finite)
     return plain

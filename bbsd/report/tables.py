@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import TYPE_CHECKING
 
 from rich.console import Group
@@ -34,6 +35,8 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
         _reward_terms(evaluation),
         _control(evaluation, blocks=blocks),
     ]
+    if evaluation.expectation_share:
+        parts.append(_expectations(evaluation, blocks=blocks))
     if evaluation.not_finite:
         parts.append(_not_finite(evaluation))
     return Group(*_separated(parts))
@@ -93,6 +96,17 @@ def _control(evaluation: Evaluation, *, blocks: bool) -> Table:
     for name, share in evaluation.control_share.items():
         drawn = Text(bar(share, BAR_WIDTH, blocks=blocks), "dim" if name == "nobody" else "cyan")
         table.add_row(Text(escape(name)), percent(share), drawn)
+    return table
+
+
+def _expectations(evaluation: Evaluation, *, blocks: bool) -> Table:
+    table = _table("expectation of", "held", "", right=[1])
+    for name, share in evaluation.expectation_share.items():
+        if isnan(share):
+            table.add_row(Text(escape(name)), "", "never in control")
+        else:
+            drawn = Text(bar(share, BAR_WIDTH, blocks=blocks), "cyan")
+            table.add_row(Text(escape(name)), percent(share), drawn)
     return table
 
 

@@ -136,13 +136,16 @@ class Behavior(Part):
         Discriminator(shape),
     ] = Field(
         {},
-        description="Its own partitions, or the names of sensors that are; none: a table of one cell.",
+        description="Its own partitions, or names: of sensors that are, of truths in the state; none: one cell.",
     )
     actions: Block[NameText, Block[str, ExpressionText]] = Field(
         description="For each action, the state it sets and the value."
     )
     rules: list[RuleText] | None = Field(
         None, description="What to do where; the first match decides. None: all open."
+    )
+    expects: ExpressionText | None = Field(
+        None, description="What should hold after each step in which it controls; measured, never learned."
     )
 
 

@@ -47,6 +47,8 @@ STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
     **{("environment", block, ANY): UNKNOWN for block in ("world", "state", "definitions", "sensors")},
     ("behaviors",): {UNKNOWN: {"actions": {UNKNOWN: {}}}},
     ("behaviors", ANY): {"actions": {UNKNOWN: {}}},
+    ("behaviors", ANY, "excited"): DELETE,
+    ("behaviors", ANY, "expects"): DELETE,
     ("behaviors", ANY, "inputs"): {UNKNOWN: UNKNOWN},
     ("behaviors", ANY, "inputs", ANY): UNKNOWN,
     ("behaviors", ANY, "actions"): {UNKNOWN: {}},

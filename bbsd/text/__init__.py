@@ -1,6 +1,7 @@
 """YAML in, with the place of everything in its file, and YAML out, in one style."""
 
 from bbsd.text.document import Document
+from bbsd.text.modeline import without_relative_modeline
 from bbsd.text.nodes import Data, DataPath
 from bbsd.text.patch import DELETE, Deletion, replace_blocks
 from bbsd.text.reader import read
@@ -16,5 +17,6 @@ __all__ = [
     "Source",
     "read",
     "replace_blocks",
+    "without_relative_modeline",
     "write",
 ]

@@ -50,6 +50,8 @@ def compared(problem, seed, generation, n_agents, agents_seed):
         assert digits(detailed.credit[agent]) == digits(expected.credit)
         assert digits(detailed.terms[agent]) == digits(expected.terms)
         assert detailed.taken[agent] == expected.steps
+        assert detailed.control[agent].tolist() == expected.controlled
+        assert detailed.held[agent].tolist() == list(expected.held.values())
 
 
 def digits(numbers):

@@ -276,6 +276,49 @@ def test_a_design_can_be_held_to_a_bound(designed, bound, code):
     assert ("is below 100.00 by" in err) == bool(code)
 
 
+EXPECTING = """
+bbsd: 1
+name: expecting
+environment: {steps: 4, state: {x: 0}}
+behaviors:
+  climb: {actions: {up: {x: x + step}}, rules: [otherwise: up], expects: x < 5}
+  fall: {actions: {down: {x: x - 1}}, rules: [otherwise: down], expects: x < before(x)}
+structure: [climb]
+reward: {high: x}
+"""
+"""After the four steps x is 1, 3, 6, 10; fall never controls."""
+
+
+@pytest.mark.parametrize(("share", "code"), [(0.5, 0), (0.51, 1)])
+def test_a_design_can_be_held_to_its_expectations(tmp_path, share, code):
+    spec = tmp_path / "expecting.yaml"
+    spec.write_text(EXPECTING)
+    found, out, err = bbsd("evaluate", spec, "--episodes", 3, "--expect-at-least", share)
+    assert found == code
+    assert "climb           50.0 %" in out
+    assert "never in control" in out
+    assert err == ("bbsd: what climb expects held in 0.5 of its steps, below 0.51 by 0.01\n" if code else "")
+
+
+def test_expectations_are_told_of_in_every_form(tmp_path):
+    spec, table = tmp_path / "expecting.yaml", tmp_path / "episode.csv"
+    spec.write_text(EXPECTING)
+    code, out, _ = bbsd("evaluate", spec, "--exact", "--json", "--trace", table)
+    assert code == 0
+    assert json.loads(out)["expectation_share"] == {"climb": 0.5, "fall": None}
+    head, *rows = table.read_text().splitlines()
+    place = head.split(",").index("expectation")
+    assert [row.split(",")[place] for row in rows] == ["held", "held", "failed", "failed"]
+    assert "Expects afterwards: x < 5" in bbsd("explain", spec)[1]
+    assert "expects: x < 5 " in bbsd("config", spec)[1]
+
+
+def test_nothing_can_be_required_where_nothing_is_expected(designed):
+    code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", "--expect-at-least", 0.5)
+    assert (code, out) == (2, "")
+    assert "no behavior of this spec expects anything" in err
+
+
 def test_holes_are_not_measured_unless_they_are_filled():
     code, out, err = bbsd("evaluate", SPEC)
     assert (code, out) == (2, "")

@@ -48,10 +48,11 @@ def named_cell(cells: dict[str, Expression], place: str, scope_at: Callable[[str
 
 
 def partitions(behavior: Behavior, spec: Spec) -> dict[str, Partition]:
-    """A behavior's own partitions, or the sensors that it lists."""
+    """A behavior's own partitions, or the sensors and the truths of the state that it lists."""
     if isinstance(behavior.inputs, dict):
         return behavior.inputs
-    return {name: spec.environment.sensors[name] for name in behavior.inputs}
+    listed = {**spec.environment.state, **spec.environment.sensors}
+    return {name: listed[name] for name in behavior.inputs}
 
 
 def labels(partition: Partition, constants: Mapping[str, Value]) -> list[str]:

@@ -23,10 +23,14 @@ NOBODY = -1
 
 @dataclass
 class Step:
-    """What happened in one step: who controlled each robot, its terms, and the values after it."""
+    """What happened in one step: who controlled each robot, its terms, and the values after it.
+
+    And whether what its controlling behavior expects holds; None where that is nothing.
+    """
 
     controlling: list[int]
     terms: list[list[float]]
+    expectations: list[bool | None]
     values: dict[str, list[Value]]
 
 
@@ -38,6 +42,10 @@ class Result:
     credit: list[float]
     terms: list[float]
     steps: int = 0
+    held: dict[str, int] = field(default_factory=dict)
+    """By behavior that expects something: the robot-steps that it controlled and after which that held."""
+    controlled: list[int] = field(default_factory=list)
+    """Robot-steps by behavior, the last one nobody's."""
     trace: list[Step] = field(default_factory=list)
 
 
@@ -96,6 +104,8 @@ def run_episode(
     episode = Episode(spec, constants, definitions(spec), lane_key)
     design = Design(tables, structure)
     result = Result(0.0, [0.0] * (len(spec.behaviors) + 1), [0.0] * len(spec.reward))
+    result.controlled = [0] * (len(spec.behaviors) + 1)
+    result.held = {name: 0 for name, behavior in spec.behaviors.items() if behavior.expects is not None}
     moment = start(episode)
     for step in range(1, spec.environment.steps + 1):
         snapshot = replace(moment, step=step, before=None)
@@ -104,7 +114,9 @@ def run_episode(
         terms = [reward_terms(episode, moment, robot) for robot in episode.robots]
         account(result, controlling, terms)
         result.steps = step
-        result.trace.append(Step(controlling, terms, seen(episode, moment)))
+        came = [expectation(episode, moment, *pair) for pair in zip(controlling, episode.robots, strict=True)]
+        count(result, list(spec.behaviors), controlling, came)
+        result.trace.append(Step(controlling, terms, came, seen(episode, moment)))
         if ended(episode, moment):
             break
     mean_over_robots(result, float(len(episode.robots)))
@@ -242,6 +254,26 @@ def account(result: Result, controlling: Sequence[int], terms: Sequence[Sequence
     for of_robot in terms:
         for number, term in enumerate(of_robot):
             result.terms[number] += term
+
+
+def expectation(episode: Episode, moment: Moment, index: int, robot: int) -> bool | None:
+    """Whether what the behavior that controlled a robot expects holds after the step."""
+    name, behavior = "", None
+    if index != NOBODY:
+        name, behavior = list(episode.spec.behaviors.items())[index]
+    if behavior is None or behavior.expects is None:
+        return None
+    return bool(episode.evaluate(f"behaviors.{name}.expects", behavior.expects, robot, moment))
+
+
+def count(
+    result: Result, names: Sequence[str], controlling: Sequence[int], came: Sequence[bool | None]
+) -> None:
+    """Count who controlled, and where what it expects held."""
+    for index, held in zip(controlling, came, strict=True):
+        result.controlled[index] += 1
+        if held:
+            result.held[names[index]] += 1
 
 
 def mean_over_robots(result: Result, n_robots: float) -> None:

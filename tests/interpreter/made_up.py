@@ -164,7 +164,7 @@ def some_sensors(draw: Draw, every: Reach, own: Reach) -> tuple[Block, Senses]:
         truths=(*own.truths, "warm"),
         lists=(*own.lists, ("eyes", length)),
     )
-    cells = {name: part.cells for name, part in shared.items()} | {"warm": TRUTHS}
+    cells = {name: part.cells for name, part in shared.items()} | {"warm": TRUTHS, "flag": TRUTHS}
     return block | {name: part.data for name, part in shared.items()}, Senses(seen, cells)
 
 

@@ -31,6 +31,8 @@ def behavior(draw: Draw, senses: Senses) -> dict[str, Any]:
     if draw(st.booleans()):
         block["excited"] = truth(draw, senses.reach)
     if draw(st.booleans()):
+        block["expects"] = truth(draw, replace(senses.reach, before=True))
+    if draw(st.booleans()):
         block["rules"] = rules(draw, cells, [*actions, "no action", "open"])
     return block
 

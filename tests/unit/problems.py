@@ -53,6 +53,7 @@ behaviors:
       jump:
         x: x + 2
         n: 0
+    expects: noisy > before(noisy)
   fall:
     excited: armed
     inputs:
@@ -64,6 +65,7 @@ behaviors:
         x: x - 0.3
       disarm:
         armed: not armed
+    expects: not armed or x < before(x)
   rest:
     actions:
       stay:

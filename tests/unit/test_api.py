@@ -24,6 +24,9 @@ reward: {right: "x if y == 1 else 0"}
 """Of 1, 2, 3 and 4 the first two are earned."""
 
 
+MODELINE = "# yaml-language-server: $schema=../schema/bbsd.schema.json\n"
+
+
 @pytest.fixture(scope="module")
 def designed(tmp_path_factory):
     """A design of two runs, and what was told meanwhile."""
@@ -196,3 +199,11 @@ def test_an_explanation_needs_a_design(designed):
     with pytest.raises(HolesLeft):
         bbsd.api.explain(SPEC)
     assert bbsd.api.explain(designed[0].architecture) is not None
+
+
+def test_a_design_leads_no_editor_to_a_schema_that_is_not_there(designed, tmp_path):
+    spec = tmp_path / "spec.yaml"
+    spec.write_text(MODELINE + SPEC.read_text())
+    found = bbsd.api.design(spec, seed=SEED, runs=2, out=tmp_path / "run")
+    assert found.architecture.read_bytes() == designed[0].architecture.read_bytes()
+    assert (found.folder / "spec.yaml").read_text() == spec.read_text()

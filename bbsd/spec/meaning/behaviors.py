@@ -10,7 +10,7 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Node
 from bbsd.expression.mistakes import KEY, WHOLE
-from bbsd.expression.tree import Name
+from bbsd.expression.tree import Name, Span
 from bbsd.spec.meaning.names import alone
 from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
 from bbsd.spec.meaning.rules import Table, table
@@ -49,7 +49,7 @@ class Module:
 
 def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]) -> Module | None:
     """The meaning of a behavior at the decision; None where its inputs could not be understood."""
-    names, path, own = decision.names, ("behaviors", name), alone(decision)
+    names, path, own = decision.names, ("behaviors", name), alone(decision, name)
     excited = tuple(_excited(written, own, (*path, "excited"), robot) for robot in names.robots)
     actions = {
         action: _action(sets, names, own, (*path, "actions", action), kinds)
@@ -110,13 +110,26 @@ def _not_state(target: str, names: Names) -> str:
     return f'"{target}" is not state{did_you_mean(target, environment.state)}'
 
 
+def _not_listed(name: str, names: Names) -> tuple[str, Span, str]:
+    """What is said of a name that inputs cannot list."""
+    environment = names.spec.environment
+    if name in names.definitions or name in names.spec.constants:
+        what = "a definition" if name in names.definitions else "a constant"
+        advice = "make a sensor of it, or write inputs as a mapping: a name, then the partition"
+        return f"{name} is {what}; inputs lists sensors, and truths of the robot's state", WHOLE, advice
+    known = [*environment.sensors, *environment.state]
+    advice = "inputs lists sensors, and truths of the state; other partitions are a mapping: name, then what it cuts"
+    return f'"{name}" is neither sensor nor state{did_you_mean(name, known)}', WHOLE, advice
+
+
 def _inputs(written: Behavior, decision: Moment, own: Scope, path: Path, robot: int) -> dict[str, Partition]:
     """A robot's partitions by input, without those that could not be understood."""
     if isinstance(written.inputs, dict):
         found = {name: _own(cut, decision, own, (*path, name), robot) for name, cut in written.inputs.items()}
     else:
         found = {
-            name: _shared(name, decision, (*path, place), robot) for place, name in enumerate(written.inputs)
+            name: _shared(name, decision, own, (*path, place), robot)
+            for place, name in enumerate(written.inputs)
         }
         for place, name in enumerate(written.inputs):
             if name in written.inputs[:place] and name not in decision.names.unusable:
@@ -128,23 +141,21 @@ def _own(cut: PartitionText, decision: Moment, own: Scope, path: Path, robot: in
     """An input's own partition; the bare name of a sensor that is one stands for that."""
     sensors = decision.names.spec.environment.sensors
     if isinstance(cut, Expression) and isinstance(cut.tree, Name) and cut.tree.name in sensors:
-        return _shared(cut.tree.name, decision, path, robot)
+        return _shared(cut.tree.name, decision, own, path, robot)
     return partition(cut, own.at(path, robot), path, robot)
 
 
-def _shared(name: str, decision: Moment, path: Path, robot: int) -> Partition | None:
-    """The partition that a sensor is; a truth is one of two cells."""
-    names, sensors = decision.names, decision.names.spec.environment.sensors
+def _shared(name: str, decision: Moment, own: Scope, path: Path, robot: int) -> Partition | None:
+    """The partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells."""
+    names, environment = decision.names, decision.names.spec.environment
     if name in names.unusable:
         return None
-    if name not in sensors:
-        advice = "inputs lists sensors; other partitions are written as a mapping: name, then what it cuts"
-        message = f'"{name}" is not a sensor{did_you_mean(name, sensors)}'
-        names.findings.tell(path, "BB041", message, WHOLE, advice)
-        return None
-    if is_partition(sensors[name]):
+    if name in environment.sensors and is_partition(environment.sensors[name]):
         return decision.partition(name, robot)
-    found = decision.value(name, robot)
+    if not (name in environment.sensors or name in environment.state or name in environment.world):
+        names.findings.tell(path, "BB041", *_not_listed(name, names))
+        return None
+    found = elaboration.value(Name(name, WHOLE), own.at(path, robot))
     if isinstance(found, tuple) or found.kind is Kind.NUMBER:
         what = "a list" if isinstance(found, tuple) else "a number"
         advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"

@@ -16,7 +16,7 @@ from bbsd.expression.graph import Kind, Level, Node
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
 from bbsd.spec.meaning.behaviors import Module, module
-from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, flat, moment, slot, slots_of
+from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, alone, flat, moment, slot, slots_of
 from bbsd.spec.meaning.partitions import Partition, is_partition
 
 if TYPE_CHECKING:
@@ -35,7 +35,8 @@ class Episode:
 
     `start` and `after` give every slot its first and its next value, `acted` state after the actions;
     `choices[robot]` is the leaf that stands for the controlling action's number (0: nobody's, else counted
-    over all behaviors in order); `reward[term][robot]`; `definitions` as they are after the step.
+    over all behaviors in order); `reward[term][robot]`; `definitions` as they are after the step;
+    `expects[behavior][robot]` what should hold after a step in which it controls, where it expects anything.
     """
 
     modules: tuple[Module, ...]
@@ -48,6 +49,7 @@ class Episode:
     ends: Node | None
     partitions: Mapping[str, tuple[str, ...]]
     """The cells of each sensor that is a partition."""
+    expects: Mapping[str, tuple[Node, ...]]
 
 
 def episode(names: Names) -> Episode | None:
@@ -84,6 +86,7 @@ def episode(names: Names) -> Episode | None:
         partitions={
             name: found.cells for (name, robot), found in beginning.partitions.items() if found and not robot
         },
+        expects=_expects(outcome, decision),
     )
     return meant if len(modules) == len(found) else None
 
@@ -214,6 +217,23 @@ def _ends(outcome: Moment) -> Node | None:
         if written is None
         else elaboration.truth(written.tree, outcome.scope.at(path, outcome.names.team))
     )
+
+
+def _expects(outcome: Moment, decision: Moment) -> dict[str, tuple[Node, ...]]:
+    """What behaviors expect: after the step, of what they may know, `before(e)` as it was for the decision.
+
+    Elaborated last, so that the numbers of all other nodes, and with them the solver's kernel, are the same without.
+    """
+    names = outcome.names
+    found: dict[str, tuple[Node, ...]] = {}
+    for name, written in names.spec.behaviors.items():
+        if written.expects is not None:
+            scope = replace(alone(outcome, name), before=alone(decision, name))
+            path = ("behaviors", name, "expects")
+            found[name] = tuple(
+                elaboration.truth(written.expects.tree, scope.at(path, robot)) for robot in names.robots
+            )
+    return found
 
 
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:

@@ -17,6 +17,7 @@ from bbsd.expression.scope import (
     PerRobot,
     Scope,
     Shared,
+    Unseen,
     Unusable,
     Value,
 )
@@ -119,18 +120,11 @@ def moment(names: Names, stored: Stored, step: Node, sensors: Moment | None = No
     return made
 
 
-def alone(decision: Moment) -> Scope:
-    """The scope of a behavior: its own robot's state and sensors, at the decision."""
-    world = decision.names.spec.environment.world
-    advice = "make a sensor of it and use that"
-    hidden: dict[str, Binding] = {
-        name: Unusable(
-            "BB066", f"{name} belongs to the world; a behavior knows only what its robot senses", advice
-        )
-        for name in world
-    }
-    names = {**decision.scope.names, **hidden, **decision.names.unusable}
-    return replace(decision.scope, names=names, alone=True, memo={})
+def alone(moment: Moment, behavior: str) -> Scope:
+    """The scope of a behavior at a moment: its own robot's state and sensors."""
+    hidden: dict[str, Binding] = dict.fromkeys(moment.names.spec.environment.world, Unseen())
+    names = {**moment.scope.names, **hidden, **moment.names.unusable}
+    return replace(moment.scope, names=names, behavior=behavior, memo={}, unseen={})
 
 
 def _stored_names(stored: Stored, names: Names) -> dict[str, Binding]:

@@ -3,7 +3,7 @@ from bbsd.kernel.functions import clamp_index, divide, floor, is_finite, maximum
 from bbsd.kernel.streams import fold, uniform, word_of
 
 
-def rollout_detailed(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd):
+def rollout_detailed(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd, held):
     key = np.zeros(8, np.uint64)
     numbers = np.zeros(152, np.float64)
     x_0 = numbers[0:8]

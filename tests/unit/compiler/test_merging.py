@@ -80,5 +80,5 @@ def test_merging_changes_no_bit():
             meaning, with_merging.tables, with_merging.layers, with_merging.candidates, 1, compiled=False
         )
         found, expected = lived(with_merging, 2), lived(without, 2)
-        for name in ("returns", "credit", "terms", "control", "taken", "odd"):
+        for name in ("returns", "credit", "terms", "control", "taken", "odd", "held"):
             np.testing.assert_array_equal(getattr(found, name), getattr(expected, name))

@@ -11,7 +11,7 @@ from tests.unit.architecture.designs import shipped
 from tests.unit.problems import RICH, episode_of, lived, problem_of
 
 N_AGENTS = 20
-OUTCOMES = ("returns", "credit", "terms", "control", "taken", "odd")
+OUTCOMES = ("returns", "credit", "terms", "control", "taken", "odd", "held")
 
 FIXED = """
 bbsd: 1

@@ -108,3 +108,29 @@ def test_the_columns_of_credit_earn_the_return_together():
     np.testing.assert_allclose(outcome.credit.sum(axis=1), outcome.returns, rtol=1e-12)
     np.testing.assert_allclose(outcome.terms.sum(axis=1), outcome.returns, rtol=1e-12)
     np.testing.assert_array_equal(outcome.control.sum(axis=1), 3 * outcome.taken)
+
+
+EXPECTING = """
+bbsd: 1
+name: expecting
+environment:
+  robots: 2
+  steps: 5
+  state: {x: robot}
+  dynamics: {x: x + 1}
+  sensors: {far: x >= 3}
+  ends: "any(x[r] >= 4 for r in team)"
+behaviors:
+  low: {inputs: [far], actions: {a: {x: x}}, expects: not far and before(x) == x - 1}
+  idle: {actions: {a: {x: x}}}
+  high: {inputs: [far], actions: {a: {x: x}}, expects: not before(far)}
+reward: {each: 1}
+"""
+
+
+def test_expectations_are_counted_after_the_steps_that_their_behavior_controlled():
+    # Robot 0 is at 0, 1, 2 before and 1, 2, 3 after steps of low; robot 1 at 1, 2 and 2, 3, then at 3 under high.
+    outcome = episode_of(problem_of(EXPECTING), [[1, 0], [0], [0, 1]], [0, 1, 2])
+    assert outcome.taken.tolist() == [3]
+    assert outcome.control.tolist() == [[5, 0, 1, 0]]
+    assert outcome.held.tolist() == [[3, 0]]

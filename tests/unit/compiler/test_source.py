@@ -77,6 +77,18 @@ def test_the_same_spec_is_the_same_source():
     assert source_of(problem_of(RICH), Detail.CREDIT) == source_of(problem_of(RICH), Detail.CREDIT)
 
 
+@pytest.mark.parametrize("text", [GUARD, RICH])
+def test_the_solver_s_rollout_knows_nothing_of_expectations(text):
+    expecting = text.replace(
+        "  wait:\n", "  wait:\n    expects: atan(x - before(x)) > 0 or middle > tan(x)\n"
+    )
+    expecting = expecting.replace("  rest:\n", "  rest:\n    expects: atan(noisy - before(noisy)) > 0\n")
+    assert expecting != text
+    source = source_of(problem_of(expecting), Detail.CREDIT)
+    assert source == source_of(problem_of(text), Detail.CREDIT)
+    assert "atan(" in source_of(problem_of(expecting), Detail.TERMS)
+
+
 def test_a_rollout_computes_nothing_that_nobody_asks_for():
     text = GUARD.replace("  sensors:", "  sensors:\n    unused: atan(x) + normal(0, 1)")
     source = source_of(problem_of(text), Detail.CREDIT)

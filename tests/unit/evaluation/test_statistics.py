@@ -16,20 +16,22 @@ environment:
   state: {x: 0}
   sensors: {s: "list(x, -x)"}
 behaviors:
-  a: {actions: {do: {x: 1}}}
-  b: {actions: {do: {x: 2}}}
+  a: {actions: {do: {x: 1}}, expects: x > 0}
+  b: {actions: {do: {x: 2}}, expects: x > 0}
 reward: {one: x, other: -x}
 """
 
 
 def outcome(returns, taken=4.0):
-    """Episodes of two robots; a controls three robot-steps and nobody the others."""
+    """Episodes of two robots; a controls three robot-steps, in two as it expects, and nobody the others."""
     n = len(returns)
     returns = np.array(returns, np.float64)
     terms = np.stack([2 * returns, -returns], axis=1)
     control = np.tile([3.0, 0.0, 2 * taken - 3], (n, 1))
     odd = np.tile([0.0, 0, 0, 2, 0, 0], (n, 1))
-    return DetailedOutcome(returns, control, terms, control, np.full(n, taken), odd)
+    return DetailedOutcome(
+        returns, control, terms, control, np.full(n, taken), odd, np.tile([2.0, 0.0], (n, 1))
+    )
 
 
 def test_an_interval_is_the_normal_one_of_the_mean():
@@ -52,6 +54,8 @@ def test_sums_become_means_and_shares():
     assert (found.mean, found.episodes, found.agents, found.exact) == (3, 3, 1, False)
     assert found.reward_terms == {"one": 6, "other": -3}
     assert found.control_share == {"a": 9 / 20, "b": 0, "nobody": 11 / 20}
+    assert found.expectation_share["a"] == 2 / 3
+    assert math.isnan(found.expectation_share["b"])
     assert found.steps == pytest.approx(10 / 3)
     assert found.not_finite == {"s_0_1": 6}
     assert found.ci95 == (found.returns.low, found.returns.high)
@@ -71,4 +75,6 @@ def test_an_exact_evaluation_weighs_every_episode():
     assert found.sd == pytest.approx(math.sqrt(0.5 * 9 + 0.25 * 25 + 0.25 * 1))
     assert found.reward_terms == {"one": 6, "other": -3}
     assert found.control_share == {"a": 3 / 8, "b": 0, "nobody": 5 / 8}
+    assert found.expectation_share["a"] == pytest.approx(2 / 3)
+    assert math.isnan(found.expectation_share["b"])
     assert found.steps == 4

@@ -113,3 +113,17 @@ def test_what_is_not_finite_but_not_earned_is_no_mistake():
     text = TERM.format(bad="x").replace("state: {x: robot}", "state: {x: robot, y: 1 / robot}")
     problem = problem_of(text)
     assert returns_of(problem, agents_of([given_architecture(problem)]), keys(1, 0, 1), 1).tolist() == [[6.0]]
+
+
+def test_a_trace_tells_whether_what_is_expected_came_only_where_anything_is():
+    assert traced(WALK).expectations == []
+    text = WALK.replace(
+        "    rules: [{when: {place: 0}",
+        "    expects: x - before(x) <= (step + 1) / 3\n    rules: [{when: {place: 0}",
+    )
+    found = traced(text)
+    assert found.expectations == [["failed", "held", "held"], ["failed", "failed", "failed"]]
+    assert found.columns[14:16] == ["expectation_0", "expectation_1"]
+    assert found.rows[1][14:16] == ("held", "failed")
+    nobody = traced(text.replace("[never, go]", "[never]"))
+    assert nobody.expectations == [[""] * 3] * 2

@@ -106,3 +106,10 @@ def test_what_steers_a_terminal_is_written_out():
         shipped("object_lifting_hand").replace("name: object-lifting-by-hand", 'name: "a\\eb"')
     )
     assert as_text(explain(meaning, random_architecture(meaning, 0))).startswith("a\\x1bb: 5 layers")
+
+
+def test_what_a_behavior_expects_is_said_last():
+    expecting = UPPER_NEAR.replace("upper: {", "upper: {expects: 'x  >\n    before(x)', ", 1)
+    assert expecting != UPPER_NEAR
+    lines = text_of(expecting, [[0] * 6, [1, 1]], [1]).splitlines()
+    assert lines[3:5] == ["1  upper  always a", "          Expects afterwards: x > before(x)"]

@@ -90,3 +90,12 @@ def test_texts_are_no_markup_and_do_not_steer_the_terminal(designed):
     text = printed(design_table(strange))
     assert "[bold]a[/bold]\\x1b[31m.yaml" in text
     assert "[red]x" in text
+
+
+def test_expectations_are_shown_where_there_are_any(evaluation):
+    assert "expectation" not in printed(evaluation_table(evaluation))
+    shares = {"stop_at_goal": 0.5, "push_more": nan}
+    text = printed(evaluation_table(replace(evaluation, expectation_share=shares)))
+    below = text[text.index("expectation of") :]
+    assert row(below, "stop_at_goal") == ["stop_at_goal", "50.0", "%", "█" * 12]
+    assert row(below, "push_more") == ["push_more", "never", "in", "control"]
