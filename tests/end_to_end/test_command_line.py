@@ -295,7 +295,7 @@ def test_a_design_can_be_held_to_its_expectations(tmp_path, share, code):
     spec.write_text(EXPECTING)
     found, out, err = bbsd("evaluate", spec, "--episodes", 3, "--expect-at-least", share)
     assert found == code
-    assert "climb           50.0 %" in out
+    assert "climb            50.0 %" in out
     assert "never in control" in out
     assert err == ("bbsd: what climb expects held in 0.5 of its steps, below 0.51 by 0.01\n" if code else "")
 

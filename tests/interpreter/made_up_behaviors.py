@@ -11,6 +11,15 @@ from hypothesis import strategies as st
 from tests.interpreter.made_up_expressions import Draw, Reach, number, truth, whole
 from tests.interpreter.made_up_partitions import Partition, partition
 
+TELLING = (
+    "before(x) != x",
+    "before(level) < level",
+    "before(flag) == flag",
+    "before(warm) != warm",
+    "y == before(y)",
+    "sum(eyes) > sum(before(eyes))",
+)
+
 Cells = dict[str, dict[str, frozenset[int]]]
 """For each input what its labels mean."""
 
@@ -31,10 +40,16 @@ def behavior(draw: Draw, senses: Senses) -> dict[str, Any]:
     if draw(st.booleans()):
         block["excited"] = truth(draw, senses.reach)
     if draw(st.booleans()):
-        block["expects"] = truth(draw, replace(senses.reach, before=True))
+        block["expects"] = expectation(draw, senses.reach)
     if draw(st.booleans()):
         block["rules"] = rules(draw, cells, [*actions, "no action", "open"])
     return block
+
+
+def expectation(draw: Draw, reach: Reach) -> str:
+    """What a behavior expects: anything, or what tells the moments of a step apart."""
+    made_up = truth(draw, replace(reach, before=True))
+    return draw(st.sampled_from([made_up, *TELLING]))
 
 
 def some_inputs(draw: Draw, senses: Senses) -> tuple[Any, Cells]:
