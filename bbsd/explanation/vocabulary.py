@@ -21,9 +21,9 @@ class Entry(NamedTuple):
 def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
     """The inputs of some behaviors, each once, in the order in which they are met."""
     return _entries(
-        (behavior, name, _partition(written))
+        (behavior, name, meaning)
         for behavior in behaviors
-        for name, written in _inputs(spec, spec.behaviors[behavior]).items()
+        for name, meaning in _inputs(spec, spec.behaviors[behavior]).items()
     )
 
 
@@ -36,11 +36,15 @@ def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
     )
 
 
-def _inputs(spec: Spec, behavior: Behavior) -> dict[str, PartitionText]:
+def _inputs(spec: Spec, behavior: Behavior) -> dict[str, str]:
+    """What each input is: the partition, or that it is a truth of the robot's state."""
     if isinstance(behavior.inputs, dict):
-        return behavior.inputs
-    known = {**spec.environment.state, **spec.environment.sensors}
-    return {name: known[name] for name in behavior.inputs}
+        return {name: _partition(written) for name, written in behavior.inputs.items()}
+    sensors, state = spec.environment.sensors, spec.environment.state
+    return {
+        name: _partition(sensors[name]) if name in sensors else f"state, at first {_text(state[name])}"
+        for name in behavior.inputs
+    }
 
 
 def _partition(written: PartitionText) -> str:
