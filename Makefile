@@ -4,7 +4,7 @@ PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint unit claims worlds bench clean
+.PHONY: demo test lint unit claims worlds figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml
@@ -25,6 +25,16 @@ claims: $(VENV)/.demo
 
 worlds: $(VENV)/.demo
 	$(BIN)/python benchmarks/worlds.py
+
+# The pictures of episodes in README.md and docs/cookbook.md.
+figures: $(VENV)/.demo
+	$(BIN)/bbsd design specs/object_lifting.yaml --quiet --out .cache/figures
+	$(BIN)/bbsd evaluate .cache/figures/architecture.yaml --plot docs/images/lifting.png
+	cp .cache/figures/curves.png docs/images/curves.png
+	rm -r .cache/figures
+	for world in mobile_robot grid_world; do \
+	  $(BIN)/bbsd evaluate specs/$${world}_hand.yaml --plot docs/images/$$world.png || exit 1; \
+	done
 
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks

@@ -23,7 +23,7 @@ from bbsd.expression.tree import (
     parts,
 )
 from bbsd.expression.vocabulary import DRAWS, FUNCTIONS
-from bbsd.spec.meaning.constants import expressions_in
+from bbsd.spec.written import expressions_in
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node

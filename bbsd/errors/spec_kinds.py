@@ -288,4 +288,14 @@ SPEC_KINDS = (
         example="reward:\n  near: 1 / (height - height)",
         mend="reward:\n  near: 1 / max(height, 0.01)",
     ),
+    Kind(
+        code="BB049",
+        title="a view that cannot be drawn",
+        explanation=(
+            "A place is [x, y] or [x, y, radius], the area around has two corners [x, y, x, y] that lie apart, "
+            "circles are rows of [x, y, radius], and a grid is a table whose rows are equally long."
+        ),
+        example="view:\n  at: height",
+        mend="view:\n  at: [robot, height]",
+    ),
 )

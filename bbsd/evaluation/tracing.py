@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,12 +11,14 @@ import numpy.typing as npt
 from bbsd.compiler.frame import Detail
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.source import module_source, traced_columns
+from bbsd.evaluation.scene import Scene, scene, starting_values
 from bbsd.kernel.modules import load_kernel
 from bbsd.spec.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
+    from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.names import Slot
 
 EXPECTATION = ("", "failed", "held")
@@ -44,6 +46,8 @@ class Trace:
 
     Empty where no behavior of the spec expects anything.
     """
+    scene: Scene | None = None
+    """What the spec's view shows, if it has one."""
 
     @property
     def columns(self) -> list[str]:
@@ -87,7 +91,17 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
     taken = team.traced_episode(rollout, key, architecture.structure, record)
-    return _read(problem, columns, record[:taken])
+    lived = _read(problem, columns, record[:taken])
+    return replace(lived, scene=_scene(lived, problem.meaning, key, generation))
+
+
+def _scene(lived: Trace, meaning: Meaning, key: int, generation: int) -> Scene | None:
+    if meaning.episode.picture is None:
+        return None
+    constants = meaning.constants.vector(generation)
+    later = [dict(zip(lived.values, row, strict=True)) for row in zip(*lived.values.values(), strict=True)]
+    moments = [starting_values(meaning, key, constants), *later]
+    return scene(meaning.episode.picture, moments, constants)
 
 
 def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> Trace:

@@ -67,6 +67,8 @@ class Graph:
 
     nodes: dict[tuple[Hashable, ...], Node] = field(default_factory=dict)
     work: int = 0
+    first: int = 0
+    """What is added to the numbers of new nodes."""
 
     def number(self, value: float) -> Node:
         """A literal number. Zeros of both signs are different literals."""
@@ -119,6 +121,10 @@ class Graph:
             first = self.apply(operation, first, node)
         return first
 
+    def fork(self) -> Graph:
+        """A graph that begins with the same nodes: what is made in it is not in this one, and numbered apart."""
+        return Graph(dict(self.nodes), self.work, self.first + MAX_NODES)
+
     def spend(self, work: int) -> None:
         """Count the work of making the graph; raises GraphTooLargeError where it is too much."""
         self.work += work
@@ -154,7 +160,7 @@ class Graph:
         key = (operation, kind, data, *(node.number for node in operands))
         self.spend(1)
         if key not in self.nodes:
-            self.nodes[key] = Node(len(self.nodes), operation, operands, data, kind, level)
+            self.nodes[key] = Node(self.first + len(self.nodes), operation, operands, data, kind, level)
         return self.nodes[key]
 
 

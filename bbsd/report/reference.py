@@ -14,7 +14,7 @@ from pydantic_core import PydanticUndefined
 
 from bbsd.errors import KINDS
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, RESERVED
-from bbsd.spec import design, models
+from bbsd.spec import design, models, view
 from bbsd.spec.base import Part
 from bbsd.spec.written import Expression
 
@@ -28,6 +28,7 @@ BLOCKS: Mapping[str, tuple[type[Part], ...]] = {
     "environment": (models.Environment,),
     "behaviors": (models.Behavior,),
     "rules": (models.When, models.Otherwise),
+    "view": (view.View,),
     "design": (design.Design,),
     "design.coevolution": (design.Coevolution,),
     "design.learning": (design.Learning,),

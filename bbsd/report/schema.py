@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get
 from annotated_types import Ge, Le, MaxLen, MinLen
 
 from bbsd.expression.vocabulary import RESERVED, UNREADABLE
-from bbsd.spec import models, written
+from bbsd.spec import models, view, written
 from bbsd.spec.base import FREE, Part
 from bbsd.spec.written import Expression
 from bbsd.text.schema import meaning
@@ -206,6 +206,8 @@ NAMES: Mapping[object, Schema] = {
     written.value_name: _ref("value_name"),
     written.definition_key: _ref("definition"),
 }
+PLACE: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 2, "maxItems": 3}, SCALAR]}
+CORNERS: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 4, "maxItems": 4}, SCALAR]}
 DECISION = _word_or_name(models.NO_ACTION_TEXT, models.OPEN)
 CELLS: Schema = {"anyOf": [SCALAR, {"type": "array", "items": SCALAR, "minItems": 1}]}
 READ_OTHERWISE: Mapping[tuple[type[Part], str], Schema] = {
@@ -213,5 +215,8 @@ READ_OTHERWISE: Mapping[tuple[type[Part], str], Schema] = {
     (models.When, "do"): DECISION,
     (models.Otherwise, "otherwise"): DECISION,
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
+    (view.View, "at"): PLACE,
+    (view.View, "area"): CORNERS,
+    (view.View, "marks"): {**_mapping(written.NameText, str), "additionalProperties": PLACE},
 }
 """Keys whose values are not what their type says: the model makes one of several ways to write them."""

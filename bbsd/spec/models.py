@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
 
 from bbsd.spec.base import Block, Part
 from bbsd.spec.design import Design
+from bbsd.spec.view import View  # noqa: TC001 - pydantic reads annotations
 from bbsd.spec.written import (
     CellText,
     DefinitionText,
-    Expression,
     ExpressionText,
     NameText,
+    TableText,
     ValueNameText,
     Whole,
-    expression,
     kind_of,
     shape,
 )
@@ -25,29 +25,6 @@ from bbsd.spec.written import (
 OPEN = "open"
 NO_ACTION_TEXT = "no action"
 OTHERWISE = "otherwise"
-
-ConstantValue = Expression | tuple["ConstantValue", ...]
-"""An expression, or a nested list of numbers."""
-
-
-def _constant(value: object) -> ConstantValue:
-    errors: list[InitErrorDetails] = []
-    found = _table(value, (), errors)
-    if errors:
-        raise ValidationError.from_exception_data("constant", errors)
-    return found
-
-
-def _table(value: object, at: tuple[int, ...], errors: list[InitErrorDetails]) -> ConstantValue:
-    """An expression or a nested list of them; mistakes are collected with their place in it."""
-    if isinstance(value, list | tuple):
-        return tuple(_table(item, (*at, place), errors) for place, item in enumerate(value))
-    try:
-        return expression(value)
-    except PydanticCustomError as error:
-        errors.append(InitErrorDetails(type=error, loc=at, input=value))
-        return ()
-
 
 NamedCells = Block[CellText, ExpressionText]
 """Named cells: the first condition that holds; `otherwise` as the last one's condition."""
@@ -158,10 +135,11 @@ class Spec(Part):
     extends: str | None = Field(
         None, description="A spec in this folder or below that this one is laid over; null there takes away."
     )
-    constants: Block[ValueNameText, Annotated[Any, BeforeValidator(_constant)]] = Field(
+    constants: Block[ValueNameText, TableText] = Field(
         {}, description="Numbers, lists and tables that do not change in a run."
     )
     environment: Environment = Field(description="The world, the robots, and what they sense.")
+    view: View | None = Field(None, description="How an episode is drawn from above; none: as lines only.")
     behaviors: Block[NameText, Behavior] = Field(min_length=1, description="The behavior modules.")
     structure: list[str] | None = Field(
         None, description="Behaviors from the highest layer down, or open; none: to be learned."

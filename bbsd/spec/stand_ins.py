@@ -56,6 +56,7 @@ STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
     ("behaviors", ANY, "rules"): DELETE,
     ("behaviors", ANY, "rules", ANY): {"when": {UNKNOWN: UNKNOWN}, "do": "open"},
     ("structure", ANY): "open",
+    ("view",): DELETE,
     ("reward",): {UNKNOWN: 0},
 }
 """What is put in the place of a wrong value, by its path; what is not listed is deleted."""

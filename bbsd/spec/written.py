@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, GetPydanticSchema
-from pydantic_core import PydanticCustomError, core_schema
+from pydantic import AfterValidator, BeforeValidator, GetPydanticSchema, ValidationError
+from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
 
 from bbsd.expression.mistakes import ExpressionError
 from bbsd.expression.parsing import NAME, parse
@@ -50,6 +50,37 @@ def expression(value: object) -> Expression:
     except ExpressionError as error:
         context = {"message": str(error), "mistake": error.mistake}
         raise PydanticCustomError("expression", "{message}", context) from None
+
+
+Nested = Expression | tuple["Nested", ...]
+"""An expression, or a nested list of expressions."""
+
+
+def nested(value: object) -> Nested:
+    """Read a scalar or a list of a spec as expressions; raises ValidationError with all mistakes in it."""
+    errors: list[InitErrorDetails] = []
+    found = _nested(value, (), errors)
+    if errors:
+        raise ValidationError.from_exception_data("list", errors)
+    return found
+
+
+def _nested(value: object, at: tuple[int, ...], errors: list[InitErrorDetails]) -> Nested:
+    """An expression or a nested list of them; mistakes are collected with their place in it."""
+    if isinstance(value, list | tuple):
+        return tuple(_nested(item, (*at, place), errors) for place, item in enumerate(value))
+    try:
+        return expression(value)
+    except PydanticCustomError as error:
+        errors.append(InitErrorDetails(type=error, loc=at, input=value))
+        return ()
+
+
+def expressions_in(value: Nested) -> list[Expression]:
+    """All expressions that a value is written with."""
+    if isinstance(value, tuple):
+        return [expression for item in value for expression in expressions_in(item)]
+    return [value]
 
 
 def scalar_text(value: object) -> str | None:
@@ -156,6 +187,9 @@ def _from_python(function: Any) -> Any:  # noqa: ANN401 - pydantic's own types
 
 ExpressionText = Annotated[Expression, _from_python(expression)]
 """A number, a truth or a text that parses."""
+
+TableText = Annotated[Any, BeforeValidator(nested)]
+"""An expression, or a nested list of expressions."""
 
 NameText = Annotated[str, AfterValidator(name)]
 """A name that is not a word of the language."""

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from bbsd.report.figures.files import color, drawn, legend, marker
+from bbsd.expression.tree import Name
+from bbsd.report.figures.files import color, drawn, drawn_whole, legend, marker, stacked
+from bbsd.report.figures.scene import draw_scene, limits_of
+from bbsd.spec.written import expressions_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,9 +17,10 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from bbsd.evaluation import Trace
+    from bbsd.evaluation import Scene, Trace
     from bbsd.spec.meaning.names import Slot
     from bbsd.spec.models import Spec
+    from bbsd.spec.view import View
 
     Lines = dict[str, list[float]]
     Stretches = dict[str, list[tuple[float, float]]]
@@ -24,6 +29,16 @@ NOBODY = "nobody"
 MAX_PANELS = 8
 PANEL, ROW = 1.35, 0.3
 """Heights in inches: of a value, and of a behavior."""
+SMALL_PANEL, SMALL_ROW = 0.68, 0.24
+"""The same beside a scene."""
+SCENE, BESIDE = 5.2, 4.0
+"""Widths in inches: of a scene, and of the panels beside it."""
+LOWEST, HIGHEST, BELOW = 3.0, 7.0, 1.1
+"""Heights in inches: a scene's at least and at most, and of what stands above and below it."""
+NOBODY_COLOR = "#9a9a9a"
+ROBOT_STYLES = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1.5, 1, 1.5)))
+GRAYS = ("#222222", "#6a6a6a", "#9a9a9a")
+"""How robots are told apart where colors stand for behaviors."""
 
 
 def episode(trace: Trace, spec: Spec, path: Path) -> None:
@@ -31,17 +46,53 @@ def episode(trace: Trace, spec: Spec, path: Path) -> None:
 
     The values are those after each step: a panel for each state with a line for each robot, one for each
     value of the world and for each sensor that is a number and the same for all robots; at most eight
-    panels, in the spec's order. Raises FigureError for a kind of file that cannot be drawn, and OSError
-    where it cannot be written.
+    panels, in the spec's order. A spec with a view is drawn from above, with these panels beside it. Raises
+    FigureError for a kind of file that cannot be drawn, and OSError where it cannot be written.
     """
+    if trace.scene is None:
+        _draw_lines_only(trace, spec, path)
+    else:
+        _draw_with_scene(trace, spec, trace.scene, path)
+
+
+def _draw_lines_only(trace: Trace, spec: Spec, path: Path) -> None:
     shown = dict(list(_panels(trace, spec).items())[:MAX_PANELS])
     behaviors = _rows(trace, spec)
     heights = [PANEL] * len(shown) + [0.7 + ROW * len(behaviors)]
     with drawn(path, 8.0, heights) as panels:
         for panel, (name, lines) in zip(panels, shown.items(), strict=False):
             _draw_lines(panel, trace, name, lines)
-        _draw_control(panels[-1], trace, behaviors)
+        _draw_control(panels[-1], trace, behaviors, [color(robot) for robot in range(trace.robots)])
         legend(panels[0])
+
+
+def _draw_with_scene(trace: Trace, spec: Spec, scene: Scene, path: Path) -> None:
+    """Draw the scene on the left, and what it does not show on the right; colors are those of the behaviors."""
+    seen = _names_seen(spec.view)
+    panels = {name: lines for name, lines in _panels(trace, spec).items() if name not in seen}
+    shown = dict(list(panels.items())[:MAX_PANELS])
+    behaviors = _rows(trace, spec)
+    order = [*spec.behaviors]
+    colors = {name: NOBODY_COLOR if name == NOBODY else color(order.index(name)) for name in behaviors}
+    control = 0.6 + SMALL_ROW * len(behaviors)
+    scene_height = min(max(SCENE * limits_of(scene).shape, LOWEST), HIGHEST)
+    height = max(scene_height + BELOW, SMALL_PANEL * len(shown) + control)
+    line = (height - control) / len(shown) if shown else 0.0
+    with drawn_whole(path, SCENE + BESIDE, height) as figure:
+        left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[SCENE, BESIDE])[0]
+        draw_scene(left.subplots(), trace, scene, colors)
+        beside = stacked(right, [line] * len(shown) + [control])
+        for panel, (name, lines) in zip(beside, shown.items(), strict=False):
+            _draw_lines(panel, trace, name, lines, in_gray=True)
+        _draw_control(beside[-1], trace, behaviors, colors)
+        legend(beside[0])
+
+
+def _names_seen(view: View | None) -> set[str]:
+    """Return the names that stand alone in a view: what they hold can be seen in the scene."""
+    written = [view.at, *([view.heading] if view.heading else ()), *view.marks.values()] if view else []
+    trees = [each.tree for value in written for each in expressions_in(value)]
+    return {tree.name for tree in trees if isinstance(tree, Name)}
 
 
 def _panels(trace: Trace, spec: Spec) -> dict[str, Lines]:
@@ -75,10 +126,16 @@ def _common(trace: Trace, name: str) -> list[float]:
     return lines[0]
 
 
-def _draw_lines(panel: Axes, trace: Trace, name: str, lines: Lines) -> None:
+def _draw_lines(panel: Axes, trace: Trace, name: str, lines: Lines, *, in_gray: bool = False) -> None:
     for index, (label, values) in enumerate(lines.items()):
-        chosen = color(index) if label else "#333333"
-        panel.plot(trace.steps, values, label=label, color=chosen, marker=marker(len(values)))
+        chosen = "#333333" if not label else GRAYS[index % len(GRAYS)] if in_gray else color(index)
+        style, width = (ROBOT_STYLES[index % len(ROBOT_STYLES)], 1.0) if in_gray else ("-", None)
+        panel.plot(
+            trace.steps, values, label=label, color=chosen, ls=style, marker=marker(len(values)), lw=width
+        )
+    every = {value for values in lines.values() for value in values}
+    if every <= {0.0, 1.0}:
+        panel.set(ylim=(-0.15, 1.15), yticks=(0, 1))
     panel.set_title(name)
 
 
@@ -89,12 +146,16 @@ def _rows(trace: Trace, spec: Spec) -> list[str]:
     return [*named, *sorted(in_control - {*named, NOBODY}), *([NOBODY] if NOBODY in in_control else [])]
 
 
-def _draw_control(panel: Axes, trace: Trace, behaviors: Sequence[str]) -> None:
+def _draw_control(
+    panel: Axes, trace: Trace, behaviors: Sequence[str], colors: Sequence[str] | Mapping[str, str]
+) -> None:
+    """Draw when each behavior controlled which robot; colors are of robots, or of behaviors by name."""
     height = 0.8 / trace.robots
     for robot, controlling in enumerate(trace.controlling):
         for name, stretches in _stretches(controlling).items():
             top = behaviors.index(name) - 0.4 + robot * height
-            panel.broken_barh(stretches, (top, height), facecolors=color(robot), linewidth=0)
+            chosen = colors[name] if isinstance(colors, Mapping) else colors[robot]
+            panel.broken_barh(stretches, (top, height), facecolors=chosen, linewidth=0)
     panel.set_yticks(range(len(behaviors)), behaviors)
     panel.set(ylim=(len(behaviors) - 0.4, -0.6), xlabel="step", title="in control")
     panel.locator_params(axis="x", integer=True)

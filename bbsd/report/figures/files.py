@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure, FigureBase
 
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31", "#000000")
 """Okabe and Ito's colors, that can be told apart without seeing red or green; but for the faint yellow."""
@@ -66,15 +66,27 @@ def drawn(path: Path, width: float, heights: list[float]) -> Iterator[list[Axes]
 
     Width and heights are inches. Raises FigureError where that cannot be done.
     """
+    with drawn_whole(path, width, sum(heights)) as figure:
+        yield stacked(figure, heights)
+
+
+@contextmanager
+def drawn_whole(path: Path, width: float, height: float) -> Iterator[Figure]:
+    """Give a figure of that size in inches, and write the file when it is drawn; FigureError as `drawn`."""
     require_figure(path)
     from matplotlib import style
     from matplotlib.figure import Figure
 
     with style.context(["default", STYLE]):
-        figure = Figure(figsize=(width, sum(heights)), layout="constrained")
-        panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
-        yield list(panels[:, 0])
+        figure = Figure(figsize=(width, height), layout="constrained")
+        yield figure
         _save(figure, path)
+
+
+def stacked(figure: FigureBase, heights: list[float]) -> list[Axes]:
+    """Return panels below each other that share the horizontal axis."""
+    panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
+    return list(panels[:, 0])
 
 
 def _save(figure: Figure, path: Path) -> None:

@@ -23,12 +23,12 @@ from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusab
 from bbsd.kernel import streams
 from bbsd.kernel.functions import clamp_index
 from bbsd.spec.meaning.order import among_themselves, in_order, names_in
+from bbsd.spec.written import expressions_in
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping
 
-    from bbsd.spec.models import ConstantValue
-    from bbsd.spec.written import Expression
+    from bbsd.spec.written import Expression, Nested
 
 GENERATION = "generation"
 
@@ -105,7 +105,7 @@ def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of n
 
 
 def read_constants(
-    written: Mapping[str, ConstantValue],
+    written: Mapping[str, Nested],
     seed_key: int,
     graph: Graph,
     findings: Findings,
@@ -131,19 +131,12 @@ def read_constants(
     return Constants(ordered, tuple(scalars), leaves, tuple(whole[node.number] for node in scalars))
 
 
-def _in_order(written: Mapping[str, ConstantValue], unusable: frozenset[str]) -> list[str]:
+def _in_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
     used = {name: names_in(expressions_in(value)) for name, value in written.items() if name not in unusable}
     return in_order(among_themselves(used))
 
 
-def expressions_in(value: ConstantValue) -> list[Expression]:
-    """All expressions a constant is written with."""
-    if isinstance(value, tuple):
-        return [expression for item in value for expression in expressions_in(item)]
-    return [value]
-
-
-def _read(written: ConstantValue, scope: Scope, path: Path) -> Value:
+def _read(written: Nested, scope: Scope, path: Path) -> Value:
     if isinstance(written, tuple):
         return tuple(_read(item, scope, (*path, place)) for place, item in enumerate(written))
     found = elaboration.value(written.tree, scope.at(path, 0, draws=True))
@@ -159,7 +152,7 @@ def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
     return value
 
 
-def _settled(value: Value, key: int, scope: Scope, written: ConstantValue) -> Value:
+def _settled(value: Value, key: int, scope: Scope, written: Nested) -> Value:
     """The value with its draws drawn from the stream of `key`; what depends on the generation stays open."""
     if isinstance(value, tuple):
         parts = written if isinstance(written, tuple) else (written,) * len(value)

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
 from bbsd.expression.tree import frames, names_used
-from bbsd.spec.meaning.constants import expressions_in
 from bbsd.spec.meaning.order import among_themselves, circles, heights
 from bbsd.spec.models import OTHERWISE, Spec
-from bbsd.spec.written import Expression, signature
+from bbsd.spec.written import Expression, expressions_in, signature
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

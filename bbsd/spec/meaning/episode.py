@@ -18,6 +18,7 @@ from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unus
 from bbsd.spec.meaning.behaviors import Module, module
 from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, alone, flat, moment, slot, slots_of
 from bbsd.spec.meaning.partitions import Partition, is_partition
+from bbsd.spec.meaning.picture import Picture, picture
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -50,6 +51,8 @@ class Episode:
     partitions: Mapping[str, tuple[str, ...]]
     """The cells of each sensor that is a partition."""
     expects: Mapping[str, tuple[Node, ...]]
+    picture: Picture | None
+    """What a view shows, in a graph of its own."""
 
 
 def episode(names: Names) -> Episode | None:
@@ -87,6 +90,7 @@ def episode(names: Names) -> Episode | None:
             name: found.cells for (name, robot), found in beginning.partitions.items() if found and not robot
         },
         expects=_expects(outcome, decision),
+        picture=_picture(first, beginning, names),
     )
     return meant if len(modules) == len(found) else None
 
@@ -234,6 +238,14 @@ def _expects(outcome: Moment, decision: Moment) -> dict[str, tuple[Node, ...]]:
                 elaboration.truth(written.expects.tree, scope.at(path, robot)) for robot in names.robots
             )
     return found
+
+
+def _picture(first: Stored, beginning: Moment, names: Names) -> Picture | None:
+    """What is drawn, in a fork of the graph: a view changes nothing of what is computed."""
+    if names.spec.view is None:
+        return None
+    aside = replace(names, graph=names.graph.fork())
+    return picture(names.spec.view, _decision(_slots(first, aside), beginning, aside))
 
 
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:

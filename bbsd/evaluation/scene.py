@@ -1,0 +1,103 @@
+"""What a view shows of an episode: its picture's values at the start and after every step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from bbsd.compiler.emission import TOP_BIT
+from bbsd.expression.graph import Kind, evaluate
+from bbsd.kernel.functions import clamp_index
+from bbsd.kernel.streams import DISTRIBUTIONS, fold, word_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from bbsd.expression.graph import Node
+    from bbsd.spec.meaning import Meaning
+    from bbsd.spec.meaning.constants import Block
+    from bbsd.spec.meaning.names import Slot
+    from bbsd.spec.meaning.picture import Picture
+
+    Stored = Mapping[Slot, float | str]
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """Where things were: a moment for the start and for each step taken; as they are at the end, what is there once.
+
+    `places` are (n_robots, n_moments, 2 or 3): x, y and perhaps a radius; `headings` (n_robots, n_moments) in radians;
+    `area` two corners (4,); `circles` (n_circles, 3); `grid` (n_rows, n_columns), not 0 where a wall is;
+    `marks` (n_moments, 2 or 3) by name.
+    """
+
+    places: Floats
+    headings: Floats | None
+    area: Floats | None
+    circles: Floats
+    grid: Floats | None
+    marks: dict[str, Floats]
+
+
+def scene(picture: Picture, moments: Sequence[Stored], constants: Sequence[float]) -> Scene:
+    """Evaluate a picture at moments of an episode, the start first."""
+
+    def over_time(nodes: Sequence[Node]) -> Floats:
+        return np.array([_values(nodes, stored, step, constants) for step, stored in enumerate(moments)])
+
+    def at_the_end(rows: Sequence[Sequence[Node]], width: int) -> Floats:
+        nodes = [node for row in rows for node in row]
+        return np.array(_values(nodes, moments[-1], len(moments) - 1, constants)).reshape(len(rows), width)
+
+    headings = None if picture.headings is None else over_time(picture.headings).T
+    return Scene(
+        places=np.array([over_time(place) for place in picture.places]),
+        headings=headings,
+        area=None if picture.area is None else at_the_end([picture.area], 4)[0],
+        circles=at_the_end(picture.circles, 3),
+        grid=None if picture.grid is None else at_the_end(picture.grid, len(picture.grid[0])),
+        marks={name: over_time(place) for name, place in picture.marks.items()},
+    )
+
+
+def starting_values(meaning: Meaning, key: int, constants: Sequence[float]) -> dict[Slot, float]:
+    """Everything that is stored when an episode starts; `key` names the episode's random streams."""
+
+    def leaf(node: Node, operands: list[Any]) -> float:
+        if node.operation != "draw":
+            return _constant(node, operands, constants)
+        distribution, word = cast("tuple[str, int]", node.data)
+        return DISTRIBUTIONS[distribution](key, fold(word | TOP_BIT, word_of(0)), *operands)
+
+    start = meaning.episode.start
+    with np.errstate(all="ignore"):
+        return {slot: float(value) for slot, value in zip(start, evaluate(start.values(), leaf), strict=True)}
+
+
+def _values(nodes: Sequence[Node], stored: Stored, step: int, constants: Sequence[float]) -> list[float]:
+    """The values of nodes that read what is stored; truths are stored as 0 and 1."""
+
+    def leaf(node: Node, operands: list[Any]) -> Any:  # noqa: ANN401 - a number or a truth
+        match node.operation:
+            case "slot":
+                value = stored[cast("Slot", node.data)]
+                return bool(value) if node.kind is Kind.TRUTH else value
+            case "step":
+                return float(step)
+        return _constant(node, operands, constants)
+
+    with np.errstate(all="ignore"):
+        return [float(value) for value in evaluate(nodes, leaf)]
+
+
+def _constant(node: Node, operands: list[Any], constants: Sequence[float]) -> float:
+    if node.operation == "constant":
+        return constants[cast("int", node.data)]
+    base, strides, lengths = cast("Block", node.data)
+    clamped = [clamp_index(index, length - 1) for index, length in zip(operands, lengths, strict=True)]
+    return constants[base + sum(stride * index for stride, index in zip(strides, clamped, strict=True))]
