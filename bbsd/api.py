@@ -49,7 +49,13 @@ from bbsd.text import DELETE, Source, replace_blocks, without_relative_modeline
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from bbsd.compiler import DetailedOutcome
+    from bbsd.evaluation import Agents
+    from bbsd.evaluation.episodes import Keys
+
 EVALUATION = name_word("evaluation")
+EPISODES, EPISODES_AT_RANDOM = 1000, runs.RANDOM_EPISODES
+"""Episodes that a design lives by default, and that each of many random agents does, as in a design's comparison."""
 
 Spec = str | Path | Loaded
 """A spec's file, or one that is loaded."""
@@ -144,7 +150,7 @@ def compile(spec: Spec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] 
 def evaluate(
     spec: Spec,
     *,
-    episodes: int = 1000,
+    episodes: int | None = None,
     seed: int = 0,
     fill: Literal["random"] | None = None,
     agents: int = 1000,
@@ -152,12 +158,14 @@ def evaluate(
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
     overrides: Sequence[str] = (),
+    progress: Callable[[int, int], None] | None = None,
 ) -> Evaluation:
     """Let the design of a spec live episodes, the same ones for every spec and the same seed.
 
-    With fill="random" the holes are filled at random, by so many agents that live so many episodes each.
-    With `exact` every start is tried once. Raises HolesLeft for a spec with holes, NotEnumerable,
-    SpecError.
+    With fill="random" the holes are filled at random, by so many agents that live so many episodes each. By
+    default a design lives 1000 episodes and a random agent 10. With `exact` every start is tried once.
+    `progress` is told now and then how many episodes were lived, and of how many. Raises HolesLeft for a spec
+    with holes, NotEnumerable, SpecError.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
@@ -166,13 +174,27 @@ def evaluate(
     with _reward_at_its_place(loaded):
         if fill == "random":
             lived = random_agents(problem, fold(key, name_word("agents")), agents)
-            return evaluation(problem, detailed(problem, lived, keys(key, 0, episodes), generation), agents)
+            streams = keys(key, 0, episodes or EPISODES_AT_RANDOM)
+            return evaluation(problem, _lived(problem, lived, streams, generation, progress), agents)
         lived = agents_of([given_architecture(problem)])
         if exact:
             problem, weights = enumerated(problem)
             starts = np.arange(len(weights), dtype=np.uint64)
-            return weighted_evaluation(problem, detailed(problem, lived, starts, generation), weights)
-        return evaluation(problem, detailed(problem, lived, keys(key, 0, episodes), generation), 1)
+            return weighted_evaluation(problem, _lived(problem, lived, starts, generation, progress), weights)
+        streams = keys(key, 0, episodes or EPISODES)
+        return evaluation(problem, _lived(problem, lived, streams, generation, progress), 1)
+
+
+def _lived(
+    problem: Problem, agents: Agents, streams: Keys, generation: int, tell: Callable[[int, int], None] | None
+) -> Iterator[DetailedOutcome]:
+    """The episodes of agents, batch by batch, each of which is told of."""
+    done, total = 0, len(agents) * len(streams)
+    for outcome in detailed(problem, agents, streams, generation):
+        done += len(outcome.returns)
+        if tell is not None:
+            tell(done, total)
+        yield outcome
 
 
 def trace(spec: Spec, *, seed: int = 0, episode: int = 0, overrides: Sequence[str] = ()) -> Trace:

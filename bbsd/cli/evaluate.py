@@ -8,7 +8,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
-from bbsd.cli.output import has_blocks, require_writable, say, show, show_table
+from bbsd.cli.output import error_console, has_blocks, require_writable, say, show, show_table
 from bbsd.errors import UsageError
 from bbsd.report.csv_text import csv_text
 from bbsd.report.figures import episode, require_figure
@@ -37,7 +37,12 @@ class Fill(StrEnum):
 
 def evaluate(
     spec: SpecFile,
-    episodes: Annotated[int, typer.Option(metavar="N", min=1, help="Episodes, of each agent.")] = 1000,
+    episodes: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", min=1, help="Episodes, of each agent.", show_default="1000; 10 with --fill"
+        ),
+    ] = None,
     seed: Seed = 0,
     at_least: Annotated[
         float | None, typer.Option(metavar="X", help="Leave with 1 if the mean return is below this.")
@@ -75,16 +80,20 @@ def evaluate(
     loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
     if expect_at_least is not None:
         _require_expectations(loaded)
-    evaluation = bbsd.evaluate(
-        loaded,
-        episodes=episodes,
-        seed=seed,
-        fill="random" if fill else None,
-        agents=agents,
-        exact=exact,
-        lanes=lanes,
-        jobs=jobs,
-    )
+    from bbsd.report.progress import episodes_lived
+
+    with episodes_lived(error_console()) as listener:
+        evaluation = bbsd.evaluate(
+            loaded,
+            episodes=episodes,
+            seed=seed,
+            fill="random" if fill else None,
+            agents=agents,
+            exact=exact,
+            lanes=lanes,
+            jobs=jobs,
+            progress=listener,
+        )
     _show(evaluation, as_json=as_json)
     if trace or plot:
         _write_episode(loaded, seed, trace, plot)

@@ -1,11 +1,14 @@
-"""How far a design is, told while it runs: a live line on a terminal, a plain line now and then elsewhere."""
+"""How far a design or an evaluation is, told while it runs.
+
+A live line on a terminal; elsewhere a plain line of a design now and then.
+"""
 
 from __future__ import annotations
 
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rich.progress import Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from bbsd.report.bars import sparkline
 from bbsd.report.numbers import column
@@ -36,6 +39,22 @@ def progress(console: Console, *, quiet: bool = False) -> Iterator[Listener]:
             yield _line_listener(line)
     else:
         yield lambda generation: _print_tenths(console, generation)
+
+
+@contextmanager
+def episodes_lived(console: Console) -> Iterator[Callable[[int, int], None]]:
+    """Give a function to call with how many episodes were lived, and of how many; only a terminal shows it."""
+    if not console.is_terminal:
+        yield lambda _done, _total: None
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn(compact=True))
+    with Progress(*columns, console=console, transient=True) as line:
+        task = line.add_task("compiling", total=None)
+
+        def show(done: int, total: int) -> None:
+            line.update(task, description=f"{done:,} of {total:,} episodes", completed=done, total=total)
+
+        yield show
 
 
 def standing(generation: Generation) -> str:
