@@ -12,6 +12,8 @@ from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import agents_of, interval, returns_of
 from bbsd.kernel.keys import keys
+from bbsd.report.figures import episode
+from bbsd.report.figures.files import color
 from bbsd.solver.random_agents import random_agents
 
 SPECS = Path(__file__).parents[2] / "specs"
@@ -40,6 +42,18 @@ def test_the_hand_made_design_earns_more_than_random_agents(world):
     by_hand = returns_of(hand, agents_of([given_architecture(hand)]), keys(1, 0, 12), 1)
     at_random = returns_of(task, random_agents(task, 2, 12), keys(1, 0, 1), 1)
     assert interval(by_hand.ravel()).low > interval(at_random.ravel()).high
+
+
+@pytest.mark.parametrize("world", WORLDS)
+def test_a_world_is_drawn_from_above_in_the_colors_of_who_controls(world, tmp_path):
+    loaded = bbsd.load(SPECS / f"{world}_hand.yaml", overrides=["environment.steps=15"])
+    lived = bbsd.trace(loaded)
+    episode(lived, loaded.spec, tmp_path / "world.svg")
+    text = (tmp_path / "world.svg").read_text()
+    assert f"<!-- from above, {len(lived.steps)} steps -->" in text
+    in_control = {name for robot in lived.controlling for name in robot} - {"nobody"}
+    order = [*loaded.spec.behaviors]
+    assert all(color(order.index(name)) in text for name in in_control)
 
 
 def test_every_start_of_the_grid_world_can_be_tried():

@@ -125,6 +125,33 @@ def test_a_spec_with_holes_is_not_evaluated_but_by_random_agents():
     assert (random.agents, random.episodes) == (50, 200)
 
 
+def test_random_agents_live_ten_episodes_each_and_a_design_a_thousand(designed):
+    random = bbsd.api.evaluate(SPEC, fill="random", agents=50)
+    assert random.episodes == 500
+    assert bbsd.api.evaluate(designed[0].architecture).episodes == 1000
+
+
+def test_an_evaluation_tells_how_far_it_is(designed):
+    told = []
+    found = bbsd.api.evaluate(
+        designed[0].architecture, episodes=9000, progress=lambda *figures: told.append(figures)
+    )
+    assert told == [(4000, 9000), (8000, 9000), (9000, 9000)]
+    assert found == bbsd.api.evaluate(designed[0].architecture, episodes=9000)
+
+
+def test_what_is_designed_keeps_its_view(spec):
+    path = spec(EXACT.replace("rules: [{when: {low: true}, do: say}, otherwise: no action]", "rules: null"))
+    text = path.read_text() + "view:   # from above\n  at: [x, y]   # both\n  marks: {one: [1, 1]}\n"
+    path.write_text(text + "design: {coevolution: {generations: 2, population: 4, agents: 8}}\n")
+    found = bbsd.api.design(path, out=path.parent / "run")
+    assert (
+        "view:   # from above\n  at: [x, y]   # both\n  marks: {one: [1, 1]}\n"
+        in found.architecture.read_text()
+    )
+    assert bbsd.api.trace(found.architecture).scene.marks["one"].tolist() == [[1, 1], [1, 1]]
+
+
 def test_an_evaluation_is_the_same_for_the_same_seed_only(designed):
     path = designed[0].architecture
     first, again, other = (bbsd.api.evaluate(path, episodes=100, seed=seed) for seed in (1, 1, 2))

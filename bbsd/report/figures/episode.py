@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Name
 from bbsd.report.figures.files import color, drawn, drawn_whole, legend, marker, stacked
-from bbsd.report.figures.scene import draw_scene, limits_of
+from bbsd.report.figures.plane import limits_of
+from bbsd.report.figures.scene import draw_scene, legend_lines
 from bbsd.spec.written import expressions_in
 
 if TYPE_CHECKING:
@@ -33,12 +34,14 @@ SMALL_PANEL, SMALL_ROW = 0.68, 0.24
 """The same beside a scene."""
 SCENE, BESIDE = 5.2, 4.0
 """Widths in inches: of a scene, and of the panels beside it."""
-LOWEST, HIGHEST, BELOW = 3.0, 7.0, 1.1
-"""Heights in inches: a scene's at least and at most, and of what stands above and below it."""
+LOWEST, HIGHEST, AROUND, LEGEND_LINE = 2.5, 7.0, 0.7, 0.2
+"""Heights in inches: a scene's at least and at most, its title and axis, a line of its legend."""
 NOBODY_COLOR = "#9a9a9a"
 ROBOT_STYLES = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1.5, 1, 1.5)))
 GRAYS = ("#222222", "#6a6a6a", "#9a9a9a")
 """How robots are told apart where colors stand for behaviors."""
+MAX_NAMED = 8
+"""Robots at most whose lines are: of more nobody could."""
 
 
 def episode(trace: Trace, spec: Spec, path: Path) -> None:
@@ -76,7 +79,8 @@ def _draw_with_scene(trace: Trace, spec: Spec, scene: Scene, path: Path) -> None
     colors = {name: NOBODY_COLOR if name == NOBODY else color(order.index(name)) for name in behaviors}
     control = 0.6 + SMALL_ROW * len(behaviors)
     scene_height = min(max(SCENE * limits_of(scene).shape, LOWEST), HIGHEST)
-    height = max(scene_height + BELOW, SMALL_PANEL * len(shown) + control)
+    below = AROUND + LEGEND_LINE * legend_lines(len(behaviors))
+    height = max(scene_height + below, SMALL_PANEL * len(shown) + control)
     line = (height - control) / len(shown) if shown else 0.0
     with drawn_whole(path, SCENE + BESIDE, height) as figure:
         left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[SCENE, BESIDE])[0]
@@ -85,7 +89,8 @@ def _draw_with_scene(trace: Trace, spec: Spec, scene: Scene, path: Path) -> None
         for panel, (name, lines) in zip(beside, shown.items(), strict=False):
             _draw_lines(panel, trace, name, lines, in_gray=True)
         _draw_control(beside[-1], trace, behaviors, colors)
-        legend(beside[0])
+        if trace.robots <= MAX_NAMED:
+            legend(beside[0])
 
 
 def _names_seen(view: View | None) -> set[str]:

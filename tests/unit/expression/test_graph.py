@@ -121,3 +121,16 @@ def test_a_graph_costs_only_so_much_work(monkeypatch: pytest.MonkeyPatch) -> Non
     graph = Graph()
     with pytest.raises(GraphTooLargeError):
         graph.fold("+", [graph.number(1)] * 100 + [graph.number(place) for place in range(100)])
+
+
+def test_a_fork_begins_with_the_same_nodes_and_adds_none_to_the_first() -> None:
+    graph = Graph()
+    x = slot(graph, "x")
+    fork = graph.fork()
+    assert slot(fork, "x") is x
+    before = dict(graph.nodes)
+    aside = fork.apply("+", x, fork.number(1))
+    assert graph.nodes == before
+    later = graph.apply("*", x, graph.number(2))
+    assert aside.number not in {node.number for node in needed([later])}
+    assert needed([aside])[-1] is aside

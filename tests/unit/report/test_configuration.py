@@ -62,6 +62,15 @@ def test_it_reads_as_the_same_spec_with_nothing_left_to_defaults(configured):
     assert "default" not in set(origins(configuration_text(again)).values())
 
 
+def test_a_view_is_shown_with_its_origins():
+    text = TEXT.replace("behaviors:", "view:\n  at: [place, 0]\n  marks:\n    end: [5, 0]\nbehaviors:")
+    found = origins(configuration_text(load(Source("walk.yaml", text), overrides=["view.heading=place / 2"])))
+    assert found["at: [place, 0]"] == "walk.yaml:13"
+    assert found["end: [5, 0]"] == "walk.yaml:15"
+    assert found["heading: place / 2"] == "--set"
+    assert not any(line.startswith("area") for line in found)
+
+
 def test_notes_do_not_end_values_of_several_lines(configured):
     data = read(Source("whole.yaml", configured())).data
     assert data["environment"]["sensors"]["far"] == "place * place * place > 100"

@@ -5,7 +5,7 @@ from io import StringIO
 
 from rich.console import Console
 
-from bbsd.report.progress import progress, standing
+from bbsd.report.progress import episodes_lived, progress, standing
 
 
 @dataclass(frozen=True)
@@ -67,3 +67,22 @@ def test_after_a_run_s_last_generation_a_terminal_shows_its_final_race():
     console = Console(file=StringIO(), force_terminal=True, width=80, color_system=None)
     text = told(console, [Generation(1, 2, 1, 2), Generation(1, 2, 2, 2)])
     assert "run 1/2, final race mean 250.50" in text
+
+
+def lived(console):
+    with episodes_lived(console) as listener:
+        for done in (4000, 8000, 10_000):
+            listener(done, 10_000)
+    return console.file.getvalue()
+
+
+def test_a_terminal_shows_how_many_episodes_were_lived_and_clears_the_line():
+    console = Console(file=StringIO(), force_terminal=True, width=80, color_system=None)
+    text = lived(console)
+    assert "compiling" not in text.splitlines()[-1]
+    assert "10,000 of 10,000 episodes" in text
+    assert text.endswith("\x1b[1A\x1b[2K")
+
+
+def test_without_a_terminal_nothing_is_said_of_episodes():
+    assert lived(Console(file=StringIO())) == ""

@@ -57,6 +57,11 @@ def test_without_the_names_nothing_is_said_of_the_rest(part: str) -> None:
         "design: {learning: {episodes: many, rate: 1 - episode / 40}}",
         "constants: {goal: {}}\nreward: {near: 'goal - height[goal]'}",
         "reward: 3",
+        "view: 3",
+        "view: {}",
+        "view: {at: {}, marks: {end: [1, 2]}}",
+        "view: {at: [robot, height], marks: {End: [1, 2]}}",
+        "view: {at: [robot, height], area: [0, 0, {}, 1]}",
     ],
 )
 def test_one_mistake_of_form_has_no_others_in_its_train(part: str) -> None:
