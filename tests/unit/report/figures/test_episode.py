@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from bbsd.report.figures import episode
-from bbsd.report.figures.episode import _panels, _rows, _stretches
+from bbsd.report.figures.panels import _stretches, panels_of, rows_of
 from bbsd.spec.models import Spec
 
 
@@ -35,15 +35,15 @@ def spec():
 
 
 def test_a_state_has_a_line_for_each_robot_and_a_sensor_one_if_all_sense_alike(trace, spec):
-    assert _panels(trace, spec) == {
+    assert panels_of(trace, spec) == {
         "height": {"robot 0": [2.0, 2.5, 3.0], "robot 1": [2.1, 2.1, 2.1]},
         "tilt": {"": [9.0, 4.0, 1.0]},
     }
 
 
 def test_who_can_be_in_control_is_listed_from_the_highest_layer_down(trace, spec):
-    assert _rows(trace, spec) == ["stop_at_goal", "push_more", "nobody"]
-    assert _rows(replace(trace, controlling=[["push_more"]]), spec) == ["stop_at_goal", "push_more"]
+    assert rows_of(trace, spec) == ["stop_at_goal", "push_more", "nobody"]
+    assert rows_of(replace(trace, controlling=[["push_more"]]), spec) == ["stop_at_goal", "push_more"]
 
 
 def test_stretches_of_control_cover_every_step_once():

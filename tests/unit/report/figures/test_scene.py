@@ -9,11 +9,10 @@ from matplotlib.figure import Figure
 
 from bbsd.evaluation import Scene
 from bbsd.report.figures import episode
-from bbsd.report.figures.episode import _names_seen
 from bbsd.report.figures.marks import _moved, _room, draw_mark
 from bbsd.report.figures.paths import _angle, draw_ends, stretches_of
 from bbsd.report.figures.plane import Limits, limits_of
-from bbsd.report.figures.scene import legend_lines
+from bbsd.report.figures.scene import _names_seen, legend_lines
 from bbsd.spec.models import Spec
 
 

@@ -1,0 +1,105 @@
+"""Panels of an episode over its steps: values, and who was in control."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+from bbsd.report.figures.files import color, marker
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+
+    from bbsd.evaluation import Trace
+    from bbsd.spec.meaning.names import Slot
+    from bbsd.spec.models import Spec
+
+    Lines = dict[str, list[float]]
+    Stretches = dict[str, list[tuple[float, float]]]
+
+NOBODY = "nobody"
+MAX_PANELS = 8
+ROBOT_STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1.5, 1, 1.5)))
+GRAYS = ("#222222", "#6a6a6a", "#9a9a9a")
+"""How robots are told apart where colors stand for behaviors."""
+
+
+def panels_of(trace: Trace, spec: Spec) -> dict[str, Lines]:
+    """Return the lines of each panel; a value that is not each robot's own has one line, without a label."""
+    environment = spec.environment
+    own = {name: lines for name in environment.state if (lines := _lines(trace, name))}
+    common = {name: _common(trace, name) for name in (*environment.world, *environment.sensors)}
+    return {**own, **{name: {"": line} for name, line in common.items() if line}}
+
+
+def _lines(trace: Trace, name: str) -> Lines:
+    """Return the numbers that a name had, by robot and element; nothing for the cells of a partition."""
+    return {
+        _label(slot, trace.robots): [float(value) for value in values]
+        for slot, values in trace.values.items()
+        if slot[0] == name and not any(isinstance(value, str) for value in values)
+    }
+
+
+def _label(slot: Slot, robots: int) -> str:
+    _, robot, place = slot
+    who = f"robot {robot}" if robot is not None and robots > 1 else ""
+    return who + "".join(f"[{index}]" for index in place)
+
+
+def _common(trace: Trace, name: str) -> list[float]:
+    """Return the numbers that a name had for all robots alike; nothing for truths, that are 0 and 1 here."""
+    lines = list(_lines(trace, name).values())
+    if not lines or any(line != lines[0] for line in lines) or {*lines[0]} <= {0.0, 1.0}:
+        return []
+    return lines[0]
+
+
+def draw_lines(panel: Axes, trace: Trace, name: str, lines: Lines, *, in_gray: bool = False) -> None:
+    """Draw a value's lines: in the robots' colors, or in gray where colors stand for behaviors."""
+    for index, (label, values) in enumerate(lines.items()):
+        chosen = "#333333" if not label else GRAYS[index % len(GRAYS)] if in_gray else color(index)
+        style, width = (ROBOT_STYLES[index % len(ROBOT_STYLES)], 1.0) if in_gray else ("-", None)
+        panel.plot(
+            trace.steps, values, label=label, color=chosen, ls=style, marker=marker(len(values)), lw=width
+        )
+    every = {value for values in lines.values() for value in values}
+    if in_gray and every <= {0.0, 1.0}:
+        panel.set(ylim=(-0.15, 1.15), yticks=(0, 1))
+    panel.set_title(name)
+
+
+def rows_of(trace: Trace, spec: Spec) -> list[str]:
+    """Return who can be in control, the highest layer first, and nobody where that happened."""
+    named = [name for name in spec.structure or spec.behaviors if name in spec.behaviors]
+    in_control = {name for robot in trace.controlling for name in robot}
+    return [*named, *sorted(in_control - {*named, NOBODY}), *([NOBODY] if NOBODY in in_control else [])]
+
+
+def draw_control(
+    panel: Axes, trace: Trace, behaviors: Sequence[str], colors: Sequence[str] | Mapping[str, str]
+) -> None:
+    """Draw when each behavior controlled which robot; colors are of robots, or of behaviors by name."""
+    height = 0.8 / trace.robots
+    for robot, controlling in enumerate(trace.controlling):
+        for name, stretches in _stretches(controlling).items():
+            top = behaviors.index(name) - 0.4 + robot * height
+            chosen = colors[name] if isinstance(colors, Mapping) else colors[robot]
+            panel.broken_barh(stretches, (top, height), facecolors=chosen, linewidth=0)
+    panel.set_yticks(range(len(behaviors)), behaviors)
+    panel.set(ylim=(len(behaviors) - 0.4, -0.6), xlabel="step", title="in control")
+    panel.locator_params(axis="x", integer=True)
+
+
+def _stretches(controlling: Sequence[str]) -> Stretches:
+    """Return for each behavior when it began to control and for how long; step k is k - 1/2 to k + 1/2."""
+    found: Stretches = {}
+    begin = 0.5
+    for name, group in groupby(controlling):
+        length = len(list(group))
+        found.setdefault(name, []).append((begin, length))
+        begin += length
+    return found
