@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import re
+from inspect import getdoc
 from textwrap import fill
 from types import UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
@@ -97,7 +98,7 @@ def _block_text(title: str, parts: Iterable[type[Part]]) -> str:
             for name, field in part.model_fields.items()
         )
         table = _table(("key", "value", "default", "meaning"), (map(_cell, row) for row in rows))
-        sections.append(f"{part.__doc__}\n\n{table}")
+        sections.append(f"{getdoc(part)}\n\n{table}")
     return "\n".join(sections)
 
 

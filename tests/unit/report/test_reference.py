@@ -3,6 +3,7 @@ import pytest
 from bbsd.errors import KINDS
 from bbsd.report.reference import BLOCKS, SECTIONS, filled, keys_text, mistakes_text
 from bbsd.spec.base import Part
+from bbsd.spec.view import View
 
 
 def subclasses(part):
@@ -23,6 +24,11 @@ def test_an_unknown_mark_is_an_error():
 
 def test_every_part_of_a_spec_is_described():
     assert {part for parts in BLOCKS.values() for part in parts} == subclasses(Part) - {Part}
+
+
+def test_a_description_of_several_lines_is_paragraphs_and_no_block_of_code(monkeypatch):
+    monkeypatch.setattr(View, "__doc__", "From above.\n\n    A place is a point,\n    or a round one.\n    ")
+    assert "### view\n\nFrom above.\n\nA place is a point,\nor a round one.\n\n| key |" in keys_text()
 
 
 @pytest.mark.parametrize(
