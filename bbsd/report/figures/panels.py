@@ -25,6 +25,9 @@ MAX_PANELS = 8
 ROBOT_STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1.5, 1, 1.5)))
 GRAYS = ("#222222", "#6a6a6a", "#9a9a9a")
 """How robots are told apart where colors stand for behaviors."""
+CROSS: Mapping[str, Any] = {"ls": "", "marker": "x", "ms": 3.5}
+OUTLINE_AND_INK: tuple[Any, ...] = ({"color": "#ffffff", "mew": 1.8}, {"color": "#222222", "mew": 0.8})
+"""How steps are crossed out: dark on light, so as to be seen on every color."""
 
 
 def panels_of(trace: Trace, spec: Spec) -> dict[str, Lines]:
@@ -89,9 +92,24 @@ def draw_control(
             top = behaviors.index(name) - 0.4 + robot * height
             chosen = colors[name] if isinstance(colors, Mapping) else colors[robot]
             panel.broken_barh(stretches, (top, height), facecolors=chosen, linewidth=0)
+    failed = failures(trace, behaviors)
+    for pen in OUTLINE_AND_INK if failed else ():
+        panel.plot(*zip(*failed, strict=True), **CROSS, **pen)
     panel.set_yticks(range(len(behaviors)), behaviors)
-    panel.set(ylim=(len(behaviors) - 0.4, -0.6), xlabel="step", title="in control")
+    title = "in control, × where an expectation failed" if failed else "in control"
+    panel.set(ylim=(len(behaviors) - 0.4, -0.6), xlabel="step", title=title)
     panel.locator_params(axis="x", integer=True)
+
+
+def failures(trace: Trace, behaviors: Sequence[str]) -> list[tuple[int, float]]:
+    """Return where on a panel of control an expectation failed: the step, and the middle of the robot's bar."""
+    height = 0.8 / trace.robots
+    return [
+        (step, behaviors.index(name) - 0.4 + (robot + 0.5) * height)
+        for robot, outcomes in enumerate(trace.expectations)
+        for step, name, outcome in zip(trace.steps.tolist(), trace.controlling[robot], outcomes, strict=True)
+        if outcome == "failed"
+    ]
 
 
 def _stretches(controlling: Sequence[str]) -> Stretches:

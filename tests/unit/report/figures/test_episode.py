@@ -3,9 +3,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from matplotlib.figure import Figure
 
 from bbsd.report.figures import episode
-from bbsd.report.figures.panels import _stretches, panels_of, rows_of
+from bbsd.report.figures.panels import _stretches, draw_control, failures, panels_of, rows_of
 from bbsd.spec.models import Spec
 
 
@@ -49,6 +50,25 @@ def test_who_can_be_in_control_is_listed_from_the_highest_layer_down(trace, spec
 def test_stretches_of_control_cover_every_step_once():
     controlling = ["a", "a", "b", "a", "nobody"]
     assert _stretches(controlling) == {"a": [(0.5, 2), (3.5, 1)], "b": [(2.5, 1)], "nobody": [(4.5, 1)]}
+
+
+def test_the_steps_in_which_an_expectation_failed_are_crossed_out(trace):
+    found = replace(trace, expectations=[["held", "failed", ""], ["failed", "", "held"]])
+    rows = ["stop_at_goal", "push_more", "nobody"]
+    first, second = pytest.approx(0.8), pytest.approx(1.2)  # the middles of the robots' bars beside push_more
+    assert failures(found, rows) == [(2, first), (1, second)]
+    assert failures(trace, rows) == []
+    panel = Figure().subplots()
+    draw_control(panel, found, rows, ["#000000", "#111111"])
+    assert {tuple(line.get_xdata()) for line in panel.lines} == {(2, 1)}
+    assert "×" in panel.get_title()
+
+
+def test_nothing_is_crossed_out_where_all_that_is_expected_holds(trace):
+    panel = Figure().subplots()
+    draw_control(panel, replace(trace, expectations=[["held"] * 3, ["", "", "held"]]),
+                 ["push_more", "stop_at_goal", "nobody"], ["#000000", "#111111"])  # fmt: skip
+    assert (len(panel.lines), panel.get_title()) == (0, "in control")
 
 
 def test_the_same_episode_gives_the_same_bytes(trace, spec, tmp_path):
