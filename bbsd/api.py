@@ -6,7 +6,7 @@ import time
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -32,12 +32,13 @@ from bbsd.explanation import Explanation
 from bbsd.explanation import explain as explain_architecture
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.solver import run as runs
+from bbsd.solver.command import Command, answers
 from bbsd.solver.folder import Folder, Identity, identity, new_folder, old_folder
 from bbsd.solver.interruption import interrupts_noted
 from bbsd.solver.price import Price
 from bbsd.solver.price import price as price_of
 from bbsd.solver.random_agents import random_agents
+from bbsd.solver.run import judge
 from bbsd.solver.settings import settings_of
 from bbsd.spec.loading import Loaded
 from bbsd.spec.loading import check as check_source
@@ -224,24 +225,36 @@ def design(
     jobs: int = 1,
     overrides: Sequence[str] = (),
     progress: Callable[[Progress], None] | None = None,
+    overdue: Callable[[Interrupted], object] | None = None,
 ) -> Designed:
     """Fill the holes of a spec and write what came of it into a folder.
 
     The same spec, seed, runs and settings give the same bytes of `architecture.yaml` and `metrics.jsonl`,
-    however often the run was stopped and gone on with (`resume`), and for any number
-    of lanes and of jobs (threads). Raises
-    NothingToDesign, SpecError, FolderError, and Interrupted, after which `resume` goes on.
+    however often it was stopped and gone on with (`resume`), and for any number of lanes and of jobs: processes
+    that do different runs, and threads inside a run where there are more jobs than runs. Raises NothingToDesign,
+    SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
+
+    An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes more than
+    a second, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
     """
     began = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = _with_holes(loaded, lanes, jobs)
     who = identity(loaded.lineage.flat.source.text, tuple(overrides), seed, runs)
     folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
-    with _reward_at_its_place(loaded), interrupts_noted():
+    command = Command(problem, settings_of(loaded.meaning), seed, runs, folder)
+    stopped = Interrupted(folder.path)
+    with _reward_at_its_place(loaded), interrupts_noted(overdue and (lambda: overdue(stopped))):
         try:
-            judged = _run(loaded, problem, folder, who, progress)
+            judged = judge(
+                answers(command, jobs, progress and _teller(command, progress)),
+                problem,
+                command.settings,
+                seed,
+            )
         except KeyboardInterrupt:
-            raise Interrupted(folder.path) from None
+            raise stopped from None
+    folder.gather(runs)
     architecture = tidied(problem.meaning, judged.architecture)
     text = designed_text(loaded, problem.meaning, architecture, overrides)
     folder.write_architecture(text)
@@ -292,23 +305,15 @@ def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) ->
     return folder
 
 
-def _run(
-    loaded: Loaded,
-    problem: Problem,
-    folder: Folder,
-    who: Identity,
-    tell: Callable[[Progress], None] | None,
-) -> runs.Judgement:
-    settings = settings_of(loaded.meaning)
-    reached = folder.progress() or runs.start(problem, settings, who.seed)
-    for progress, line in runs.generations(reached, problem, settings, who.seed, who.runs):
-        reached = progress
-        folder.save(progress, line)
-        if tell is not None and line is not None:
-            figures = (line["mean"], line["best"], line["lifetime"])
-            generations = settings.coevolution.generations
-            tell(Progress(line["run"], who.runs, line["generation"], generations, *figures))
-    return runs.judge(reached, problem, settings, who.seed)
+def _teller(command: Command, progress: Callable[[Progress], None]) -> Callable[[dict[str, Any]], None]:
+    """What makes a generation's metrics into its progress."""
+
+    def tell(line: dict[str, Any]) -> None:
+        figures = (line["mean"], line["best"], line["lifetime"])
+        generations = command.settings.coevolution.generations
+        progress(Progress(line["run"], command.n_runs, line["generation"], generations, *figures))
+
+    return tell
 
 
 @contextmanager

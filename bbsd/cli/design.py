@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
-from bbsd.cli.output import error_console, say, show, show_table
+from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.report.figures import curves
 from bbsd.report.plain import design_plain, json_text
 
@@ -53,8 +53,16 @@ def design(
             api.price(spec, seed=seed, runs=runs, lanes=lanes, overrides=overrides or ()), as_json=as_json
         )
         return
+    console = error_console()
+
+    def leave(stopped: api.Interrupted) -> None:
+        """End the process in the middle of what it does: what was kept is whole."""
+        console.show_cursor()
+        _say_how_to_go_on(stopped.folder, begin="\n" if console.is_terminal and not quiet else "")
+        leave_now(INTERRUPTED)
+
     try:
-        with progress(error_console(), quiet=quiet) as listener:
+        with progress(console, quiet=quiet) as listener:
             designed = api.design(
                 spec,
                 seed=seed,
@@ -65,9 +73,10 @@ def design(
                 jobs=jobs,
                 overrides=overrides or (),
                 progress=listener,
+                overdue=leave,
             )
     except api.Interrupted as stopped:
-        say(f"stopped; what was done is kept in {stopped.folder}. To go on: {_resuming(stopped.folder)}")
+        _say_how_to_go_on(stopped.folder)
         raise typer.Exit(INTERRUPTED) from None
     _draw_curves(designed)
     _show(designed, seed, runs, as_json=as_json)
@@ -77,6 +86,10 @@ def _show_price(price: "Price", *, as_json: bool) -> None:
     from bbsd.report.price import price_plain, price_text
 
     show(json_text(price_plain(price)) if as_json else price_text(price))
+
+
+def _say_how_to_go_on(folder: Path, begin: str = "") -> None:
+    say(f"{begin}stopped; what was done is kept in {folder}. To go on: {_resuming(folder)}")
 
 
 def _resuming(folder: Path) -> str:

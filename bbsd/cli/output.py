@@ -3,9 +3,10 @@
 import errno
 import os
 import sys
+from contextlib import suppress
 from io import TextIOWrapper
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -26,6 +27,14 @@ def say(text: str) -> None:
         sys.stderr.write(text + "\n")
     except BrokenPipeError:
         _discard(sys.stderr)
+
+
+def leave_now(code: int) -> NoReturn:
+    """End the process without waiting for anything that it does."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError):
+            stream.flush()
+    os._exit(code)
 
 
 def _discard(stream: TextIO) -> None:

@@ -1,6 +1,6 @@
-"""How far a design or an evaluation is, told while it runs.
+"""How far a design or an evaluation is, told while it goes on.
 
-A live line on a terminal; elsewhere a plain line of a design now and then.
+Live lines on a terminal; elsewhere a plain line of a design now and then.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from rich.console import Console
+    from rich.progress import TaskID
 
     from bbsd.report.shown import Generation
 
@@ -36,7 +37,7 @@ def progress(console: Console, *, quiet: bool = False) -> Iterator[Listener]:
         yield lambda _generation: None
     elif console.is_terminal:
         with _live(console) as line:
-            yield _line_listener(line)
+            yield _Lines(line).show
     else:
         yield lambda generation: _print_tenths(console, generation)
 
@@ -98,22 +99,45 @@ def _live(console: Console) -> Progress:
     )
 
 
-def _line_listener(line: Progress) -> Listener:
-    task = line.add_task("compiling", total=None, means="", curve="")
-    curve_width = max(0, min(CURVE_WIDTH, line.console.width - REST_WIDTH))
-    history: list[float] = []
+class _Lines:
+    """A line for each run that is going on. All of them tell the time that is left for all runs."""
 
-    def show(generation: Generation) -> None:
-        if generation.generation == 1:
-            history.clear()
+    def __init__(self, live: Progress) -> None:
+        self._live = live
+        self._tasks: dict[int, TaskID] = {}
+        self._free = [self._new_line()]
+        self._reached: dict[int, int] = {}
+        self._histories: dict[int, list[float]] = {}
+        self._curve_width = max(0, min(CURVE_WIDTH, live.console.width - REST_WIDTH))
+
+    def show(self, generation: Generation) -> None:
+        """Show a generation that ended."""
+        if generation.run not in self._tasks:
+            self._tasks[generation.run] = self._line_for(generation)
+        self._reached[generation.run] = generation.generation
+        history = self._histories.setdefault(generation.run, [])
         history.append(generation.mean)
-        line.update(
-            task,
+        self._live.update(
+            self._tasks[generation.run],
             description=_phase(generation),
-            total=generation.runs * generation.generations,
-            completed=(generation.run - 1) * generation.generations + generation.generation,
             means=means(generation),
-            curve=sparkline(history, curve_width),
+            curve=sparkline(history, self._curve_width),
         )
+        self._tell_time(generation)
 
-    return show
+    def _line_for(self, generation: Generation) -> TaskID:
+        """The line of a run that came to its end, since whoever begins a run has ended one; at first a new one."""
+        ended = [run for run in self._tasks if self._reached[run] == generation.generations]
+        if ended:
+            self._free.append(self._tasks.pop(ended[0]))
+        return self._free.pop() if self._free else self._new_line()
+
+    def _new_line(self) -> TaskID:
+        return self._live.add_task("compiling", total=None, means="", curve="")
+
+    def _tell_time(self, generation: Generation) -> None:
+        """Runs are begun in their order, so those before a run that was not told of were done before."""
+        each, begun = generation.generations, range(1, max(self._reached) + 1)
+        done = sum(self._reached.get(run, each) for run in begun)
+        for task in self._tasks.values():
+            self._live.update(task, total=generation.runs * each, completed=done)

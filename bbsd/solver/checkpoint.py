@@ -13,6 +13,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from bbsd.architecture import Architecture
 from bbsd.solver.champions import Champions
 from bbsd.solver.culture import Culture
 from bbsd.solver.generation import State
@@ -22,32 +23,16 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from bbsd.architecture import Architecture
-
 DIGEST_BYTES = 32
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Progress:
-    """Where a command stands: the run (from 0), its state, and the answers of the runs before it, one row each.
-
-    answers: tables uint8 (n_runs_done, cells of all behaviors), structures (n_runs_done, n_layers).
-    """
+    """Where a run stands: its number (from 0), its state, and its answer once there is one."""
 
     run: int
     state: State
-    answer_tables: NDArray[np.uint8]
-    answer_structures: NDArray[np.int64]
-
-    def with_answer(self, architecture: Architecture, state: State) -> Progress:
-        """The next run's beginning, after this one's answer."""
-        tables = np.concatenate(architecture.tables)[None]
-        return Progress(
-            self.run + 1,
-            state,
-            np.concatenate([self.answer_tables, tables]),
-            np.concatenate([self.answer_structures, architecture.structure[None]]),
-        )
+    answer: Architecture | None = None
 
 
 class CheckpointError(ValueError):
@@ -90,9 +75,15 @@ def _arrays(progress: Progress) -> dict[str, NDArray[np.generic]]:
         "champion_structures": state.champions.structures,
         "champion_fitness": state.champions.fitness,
         "champion_capacity": np.array(state.champions.capacity),
-        "answer_tables": progress.answer_tables,
-        "answer_structures": progress.answer_structures,
+        **_answer_arrays(progress.answer),
     }
+
+
+def _answer_arrays(answer: Architecture | None) -> dict[str, NDArray[np.generic]]:
+    if answer is None:
+        return {}
+    tables = {f"answer_{index}": table for index, table in enumerate(answer.tables)}
+    return {**tables, "answer_structure": answer.structure}
 
 
 def _progress(arrays: dict[str, NDArray[Any]]) -> Progress:
@@ -105,4 +96,11 @@ def _progress(arrays: dict[str, NDArray[Any]]) -> Progress:
     )
     culture = Culture(arrays["memes"], arrays["meme_fitness"])
     state = State(int(arrays["generation"]), pools, arrays["fitness"], culture, champions)
-    return Progress(int(arrays["run"]), state, arrays["answer_tables"], arrays["answer_structures"])
+    return Progress(int(arrays["run"]), state, _answer(arrays))
+
+
+def _answer(arrays: dict[str, NDArray[Any]]) -> Architecture | None:
+    if "answer_structure" not in arrays:
+        return None
+    tables = tuple(arrays[f"answer_{index}"] for index in range(len(arrays["fitness"])))
+    return Architecture(tables, arrays["answer_structure"])

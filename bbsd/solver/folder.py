@@ -1,4 +1,4 @@
-"""A run's folder: anything can open it, rsync can copy it, and a run that was killed goes on from it."""
+"""A design's folder: anything can open it, rsync can copy it, and runs that were killed go on from it."""
 
 from __future__ import annotations
 
@@ -10,20 +10,13 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd.errors import UsageError
-from bbsd.solver import checkpoint
+from bbsd.solver.records import FolderError, Records
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bbsd.solver.checkpoint import Progress
-
-FORMAT = 1
-
-
-class FolderError(UsageError):
-    """A folder that cannot be written to or gone on from, and what to do about it."""
+FORMAT = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +46,7 @@ def identity(spec_text: str, overrides: tuple[str, ...], seed: int, runs: int) -
 
 @dataclass(frozen=True, slots=True)
 class Folder:
-    """The files of a run."""
+    """The files of a design."""
 
     path: Path
 
@@ -77,9 +70,15 @@ class Folder:
         """What was run, with what, and what came of it."""
         return self.path / "run.json"
 
-    @property
-    def _checkpoint(self) -> Path:
-        return self.path / "checkpoint.npz"
+    def records(self, run: int, n_runs: int) -> Records:
+        """What is kept of a run, which counts from 0: in the folder itself where it is the only one."""
+        return Records(self.path if n_runs == 1 else self.path / f"run-{run + 1}")
+
+    def gather(self, n_runs: int) -> None:
+        """Write the metrics of all runs, in their order, into one file."""
+        if n_runs > 1:
+            each = (self.records(run, n_runs).metrics.read_bytes() for run in range(n_runs))
+            self.metrics.write_bytes(b"".join(each))
 
     def copy_spec(self, text: str) -> None:
         """Keep the spec as it was when the run began."""
@@ -90,50 +89,9 @@ class Folder:
         if not self.architecture.exists():
             self.architecture.write_text(text, encoding="utf-8")
 
-    def save(self, progress: Progress, line: dict[str, Any] | None) -> None:
-        """Note a generation: first its metrics, then the state, so the state never knows more than the metrics."""
-        if line is not None:
-            with self.metrics.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(line) + "\n")
-        checkpoint.save(self._checkpoint, progress)
-
-    def progress(self) -> Progress | None:
-        """The last state that was saved, with the metrics cut back to it; None if there is none.
-
-        Raises FolderError for a damaged checkpoint.
-        """
-        if not self._checkpoint.exists():
-            self.metrics.unlink(missing_ok=True)
-            return None
-        try:
-            progress = checkpoint.load(self._checkpoint)
-        except checkpoint.CheckpointError as error:
-            raise FolderError(f"{error}; remove the folder to start again") from None
-        lines = [
-            line
-            for line in self.lines()
-            if (line["run"] - 1, line["generation"]) <= (progress.run, progress.state.generation)
-        ]
-        text = "".join(json.dumps(line) + "\n" for line in lines)
-        self.metrics.write_text(text, encoding="utf-8")
-        return progress
-
     def lines(self) -> list[dict[str, Any]]:
-        """The metrics so far; a last line that was cut off is left out.
-
-        Raises FolderError for a file that is damaged.
-        """
-        if not self.metrics.exists():
-            return []
-        whole = [
-            line
-            for line in self.metrics.read_text(encoding="utf-8").splitlines(keepends=True)
-            if line.endswith("\n")
-        ]
-        try:
-            return [json.loads(line) for line in whole]
-        except ValueError:
-            raise FolderError(f"{self.metrics} is damaged; remove the folder to start again") from None
+        """The metrics of all generations. Raises FolderError for a file that is damaged."""
+        return Records(self.path).lines()
 
     def write_note(self, who: Identity, result: dict[str, Any] | None = None) -> None:
         """Write `run.json`; the result is added when there is one."""

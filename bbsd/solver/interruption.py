@@ -1,32 +1,93 @@
 """Ctrl-C as a wish that is granted at the next episode.
 
 An exception in the middle of anything can be lost: one that is raised while LLVM's objects are disposed of is only
-printed. So the first interrupt is noted and heeded between compiled calls; a second one is Python's own.
+printed. So the first interrupt is noted and heeded between compiled calls; a second one is Python's own. A thread
+watches for it too, since no handler runs before a compiled call is over.
 """
 
 from __future__ import annotations
 
 import signal
+import socket
 import threading
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
-_wished = threading.Event()
+GRACE = 1.0
+"""Seconds in which a design should have stopped by itself."""
+
+
+class Wish:
+    """That a design should stop."""
+
+    def __init__(self) -> None:
+        self._made = threading.Event()
+        self._listeners: list[Callable[[], object]] = []
+
+    def make(self) -> None:
+        """Make it, and tell all who wanted to know; from any thread."""
+        self._made.set()
+        for listener in self._listeners:
+            listener()
+
+    def when_made(self, listener: Callable[[], object]) -> None:
+        """Call this when it is made, maybe more than once."""
+        self._listeners.append(listener)
+
+    @property
+    def is_made(self) -> bool:
+        """Whether it was made."""
+        return self._made.is_set()
+
+
+_wish: ContextVar[Wish] = ContextVar("wish", default=Wish())  # noqa: B039 - nobody makes the default one
+
+
+def heed() -> None:
+    """Raise KeyboardInterrupt if the design of this context should stop."""
+    if _wish.get().is_made:
+        raise KeyboardInterrupt
+
+
+def present_wish() -> Wish:
+    """The wish that is heeded in this context."""
+    return _wish.get()
+
+
+def own_wish() -> Wish:
+    """A wish of its own for a process that does nothing but one design's work."""
+    wish = Wish()
+    _wish.set(wish)
+    return wish
 
 
 @contextmanager
-def interrupts_noted() -> Iterator[None]:
-    """Note interrupts for `heed` while in here; only the main thread can, others leave things as they are."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
+def interrupts_noted(overdue: Callable[[], object] | None = None) -> Iterator[None]:
+    """Note interrupts for `heed` while in here; only the main thread can, others leave things as they are.
+
+    If one was not heeded within the grace period, `overdue` is called, in another thread.
+    """
+    token = _wish.set(Wish())
+    try:
+        if threading.current_thread() is threading.main_thread():
+            with _handled(_wish.get()), _watched(_wish.get(), overdue):
+                yield
+        else:
+            yield
+    finally:
+        _wish.reset(token)
+
+
+@contextmanager
+def _handled(wish: Wish) -> Iterator[None]:
     before = signal.getsignal(signal.SIGINT)
 
     def note(_number: int, _frame: object) -> None:
-        _wished.set()
+        wish.make()
         signal.signal(signal.SIGINT, before)
 
     signal.signal(signal.SIGINT, note)
@@ -34,10 +95,32 @@ def interrupts_noted() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
-        _wished.clear()
 
 
-def heed() -> None:
-    """Raise KeyboardInterrupt if there was one."""
-    if _wished.is_set():
-        raise KeyboardInterrupt
+@contextmanager
+def _watched(wish: Wish, overdue: Callable[[], object] | None) -> Iterator[None]:
+    reader, writer = socket.socketpair()
+    writer.setblocking(False)
+    over = threading.Event()
+    thread = threading.Thread(target=_watch, args=(reader, wish, over, overdue), daemon=True)
+    thread.start()
+    before = signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
+    try:
+        yield
+    finally:
+        signal.set_wakeup_fd(before)
+        over.set()
+        writer.close()
+        thread.join()
+        reader.close()
+
+
+def _watch(
+    reader: socket.socket, wish: Wish, over: threading.Event, overdue: Callable[[], object] | None
+) -> None:
+    """Make the wish as soon as the system has noted the signal, whatever the main thread is doing."""
+    while numbers := reader.recv(64):
+        if signal.SIGINT in numbers:
+            wish.make()
+            if not over.wait(GRACE) and overdue is not None:
+                overdue()

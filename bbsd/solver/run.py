@@ -1,4 +1,4 @@
-"""A command's runs: generation after generation, run after run, and the answer of them all."""
+"""A run: generation after generation, then its answer; and the best of several runs' answers, judged."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bbsd.architecture import Architecture
 from bbsd.evaluation import Evaluation, Interval, agents_of, detailed, evaluation, interval, returns_of
 from bbsd.evaluation.sums import row_means
 from bbsd.kernel.keys import keys
@@ -22,8 +21,9 @@ from bbsd.solver.random_agents import random_agents
 from bbsd.spec.meaning import seed_key
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
+    from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.solver.settings import Settings
 
@@ -39,36 +39,25 @@ def run_key(seed: int, run: int) -> int:
     return fold(fold(seed_key(seed), RUNS), word_of(run))
 
 
-def start(problem: Problem, settings: Settings, seed: int) -> Progress:
-    """A command's progress before its first generation."""
-    n_cells, n_layers = sum(table.n_cells for table in problem.tables), len(problem.layers)
-    none = np.empty((0, n_cells), np.uint8), np.empty((0, n_layers), np.int64)
-    return Progress(0, beginning(problem, settings, run_key(seed, 0)), *none)
+def start(problem: Problem, settings: Settings, seed: int, run: int) -> Progress:
+    """A run's progress before its first generation."""
+    return Progress(run, beginning(problem, settings, run_key(seed, run)))
 
 
 def generations(
-    progress: Progress, problem: Problem, settings: Settings, seed: int, n_runs: int
+    progress: Progress, problem: Problem, settings: Settings, seed: int
 ) -> Iterator[tuple[Progress, dict[str, Any] | None]]:
-    """Go on from some progress to the end of the last run.
+    """Go on from some progress to the end of the run.
 
-    Yields after every generation the progress and the generation's metrics, and after every run's race the
-    progress with its answer, without metrics.
+    Yields after every generation the progress and the generation's metrics, and after the race for the run's answer
+    the progress with it, without metrics.
     """
-    while progress.run < n_runs:
-        key = run_key(seed, progress.run)
-        state = progress.state
-        while state.generation < settings.coevolution.generations:
-            state, census = next_generation(state, problem, settings, key)
-            progress = Progress(progress.run, state, progress.answer_tables, progress.answer_structures)
-            yield progress, metrics.line(progress.run, state, census, problem)
-        found = answer(state, problem, settings, key)
-        following = (
-            state
-            if progress.run + 1 == n_runs
-            else beginning(problem, settings, run_key(seed, progress.run + 1))
-        )
-        progress = progress.with_answer(found, following)
-        yield progress, None
+    run, state, key = progress.run, progress.state, run_key(seed, progress.run)
+    while state.generation < settings.coevolution.generations:
+        state, census = next_generation(state, problem, settings, key)
+        yield Progress(run, state), metrics.line(run, state, census, problem)
+    if progress.answer is None:
+        yield Progress(run, state, answer(state, problem, settings, key)), None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,14 +75,9 @@ class Judgement:
     """Random agents of the same space, over agents."""
 
 
-def judge(progress: Progress, problem: Problem, settings: Settings, seed: int) -> Judgement:
+def judge(answers: Sequence[Architecture], problem: Problem, settings: Settings, seed: int) -> Judgement:
     """Choose the best of the runs' answers and judge it on fresh episodes."""
     key = seed_key(seed)
-    ends = np.cumsum([table.n_cells for table in problem.tables])[:-1]
-    answers = [
-        Architecture(tuple(np.split(tables, ends)), structure)
-        for tables, structure in zip(progress.answer_tables, progress.answer_structures, strict=True)
-    ]
     entrants = different(answers, problem)
     best = entrants[race(problem, entrants, fold(key, BEST), settings.answer.episodes).winner]
     generation = settings.coevolution.generations
