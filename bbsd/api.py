@@ -234,8 +234,8 @@ def design(
     that do different runs, and threads inside a run where there are more jobs than runs. Raises NothingToDesign,
     SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
 
-    An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes more than
-    a second, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
+    An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes too
+    long, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
     """
     began = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)

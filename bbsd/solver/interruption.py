@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-GRACE = 1.0
+GRACE = 1.3
 """Seconds in which a design should have stopped by itself."""
 
 

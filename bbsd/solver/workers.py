@@ -36,7 +36,8 @@ GRACE = 0.8
 GLANCE = 0.1
 """Seconds between two looks at how far the workers are."""
 STOPPED = 130
-SAFE_PATH = "PYTHONSAFEPATH"
+ENVIRONMENT = {"PYTHONSAFEPATH": "1", "PYTHONWARNINGS": "ignore:resource_tracker:UserWarning"}
+"""They import nothing from the present folder; and one of loky's cleans up after a killed parent without a word."""
 
 
 class WorkerLost(UsageError):
@@ -151,33 +152,43 @@ def _workers(count: int, command: Command) -> Iterator[Submit]:
     wish = present_wish()
     reader, lifeline = Pipe(duplex=False)
     wish.when_made(lifeline.close)
-    executor = ProcessPoolExecutor(count, initializer=_begin, initargs=(command, reader))
-    try:
-        with _wished_at_errors(wish):
-            with _harmless_children():
-                executor.submit(_here)
-            yield lambda run: executor.submit(_complete, run)
-    finally:
-        executor.shutdown(wait=True)
-        lifeline.close()
-        reader.close()
+    with _environment():
+        executor = ProcessPoolExecutor(count, initializer=_begin, initargs=(command, reader))
+        try:
+            with _wished_at_errors(wish):
+                with _no_interrupts():
+                    executor.submit(_here)
+                yield lambda run: executor.submit(_complete, run)
+        finally:
+            executor.shutdown(wait=True)
+            lifeline.close()
+            reader.close()
 
 
 @contextmanager
-def _harmless_children() -> Iterator[None]:
-    """Processes that are started in here import nothing from the present folder, and leave Ctrl-C to their parent."""
-    before = os.environ.get(SAFE_PATH)
-    os.environ[SAFE_PATH] = "1"
-    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if os.name == "posix" else None
+def _environment() -> Iterator[None]:
+    """The environment of processes that are started in here, and what it was again afterwards."""
+    before = {name: os.environ.get(name) for name in ENVIRONMENT}
+    os.environ.update(ENVIRONMENT)
     try:
         yield
     finally:
-        if blocked is not None:
-            signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
-        if before is None:
-            del os.environ[SAFE_PATH]
-        else:
-            os.environ[SAFE_PATH] = before
+        for name, value in before.items():
+            os.environ.pop(name)
+            os.environ.update({} if value is None else {name: value})
+
+
+@contextmanager
+def _no_interrupts() -> Iterator[None]:
+    """Processes that are started in here never notice Ctrl-C; this one does, once it is out of here."""
+    if os.name != "posix":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 _held: list[Command] = []
