@@ -27,16 +27,22 @@ class Wish:
     def __init__(self) -> None:
         self._made = threading.Event()
         self._listeners: list[Callable[[], object]] = []
+        self._telling = threading.RLock()  # a handler may come in the middle of it
 
     def make(self) -> None:
-        """Make it, and tell all who wanted to know; from any thread."""
-        self._made.set()
-        for listener in self._listeners:
-            listener()
+        """Make it, and tell all who want to know; from any thread."""
+        with self._telling:
+            if not self._made.is_set():
+                self._made.set()
+                for listener in self._listeners:
+                    listener()
 
     def when_made(self, listener: Callable[[], object]) -> None:
-        """Call this when it is made, maybe more than once."""
-        self._listeners.append(listener)
+        """Call this once it is made, at once if it was."""
+        with self._telling:
+            self._listeners.append(listener)
+            if self._made.is_set():
+                listener()
 
     @property
     def is_made(self) -> bool:

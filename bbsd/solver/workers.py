@@ -13,7 +13,7 @@ import time
 from collections import deque
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
-from multiprocessing import Pipe
+from multiprocessing import Pipe, resource_tracker
 from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
@@ -149,11 +149,17 @@ def _workers(count: int, command: Command) -> Iterator[Submit]:
     """Start so many processes that wait for runs, and end them."""
     from loky import ProcessPoolExecutor
 
-    wish = present_wish()
+    wish, cutting = present_wish(), threading.RLock()
     reader, lifeline = Pipe(duplex=False)
-    wish.when_made(lifeline.close)
+
+    def cut() -> None:
+        with cutting:
+            lifeline.close()
+
+    wish.when_made(cut)
     with _environment():
         executor = ProcessPoolExecutor(count, initializer=_begin, initargs=(command, reader))
+        resource_tracker.ensure_running()  # it would unblock interrupts when it is started with the first worker
         try:
             with _wished_at_errors(wish):
                 with _no_interrupts():
@@ -161,7 +167,7 @@ def _workers(count: int, command: Command) -> Iterator[Submit]:
                 yield lambda run: executor.submit(_complete, run)
         finally:
             executor.shutdown(wait=True)
-            lifeline.close()
+            cut()
             reader.close()
 
 

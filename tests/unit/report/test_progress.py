@@ -86,3 +86,22 @@ def test_a_terminal_shows_how_many_episodes_were_lived_and_clears_the_line():
 
 def test_without_a_terminal_nothing_is_said_of_episodes():
     assert lived(Console(file=StringIO())) == ""
+
+
+def test_runs_that_go_on_side_by_side_have_a_line_each():
+    console = Console(file=StringIO(), force_terminal=True, width=120, height=20, color_system=None)
+    text = told(console, [Generation(2, 3, 1, 4), Generation(1, 3, 1, 4), Generation(2, 3, 2, 4)])
+    last = [line for line in text.splitlines() if "generation 2/4" in line or "generation 1/4" in line][-2:]
+    assert [line.partition(" mean")[0].rpartition("run")[2] for line in last] == [
+        " 2/3, generation 2/4",
+        " 1/3, generation 1/4",
+    ]
+
+
+def test_a_run_that_begins_takes_the_line_of_one_that_ended():
+    console = Console(file=StringIO(), force_terminal=True, width=120, height=20, color_system=None)
+    ended = [Generation(1, 3, 1, 2), Generation(2, 3, 1, 2), Generation(1, 3, 2, 2)]
+    text = told(console, [*ended, Generation(3, 3, 1, 2)])
+    last = text[text.rindex("run 3/3, generation 1/2") :]
+    assert "run 2/3, generation 1/2" in last
+    assert "run 1/3" not in last

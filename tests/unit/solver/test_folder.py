@@ -5,14 +5,8 @@ from pathlib import Path
 import pytest
 
 from bbsd.solver.folder import Folder, FolderError, identity, new_folder, old_folder
-from bbsd.solver.run import generations, start
-from tests.unit.solver.problems import guess
 
 WHO = identity("a spec", ("design.sharing=value",), 3, 2)
-
-
-def lines_of(folder):
-    return [(line["run"], line["generation"]) for line in folder.lines()]
 
 
 @pytest.fixture
@@ -20,58 +14,30 @@ def folder(tmp_path):
     return Folder(tmp_path)
 
 
-@pytest.fixture(scope="module")
-def lived():
-    """All that the generations of two runs yield."""
-    problem, settings = guess()
-    return list(generations(start(problem, settings, 3), problem, settings, 3, 2))
+def test_the_only_run_is_kept_in_the_folder_itself(folder):
+    assert folder.records(0, 1).path == folder.path
+    assert folder.records(2, 4).path == folder.path / "run-3"
 
 
-def test_what_is_saved_is_gone_on_from(folder, lived):
-    assert folder.progress() is None
-    for progress, line in lived[:2]:
-        folder.save(progress, line)
-    found = folder.progress()
-    assert (found.run, found.state.generation) == (0, 2)
-    assert lines_of(folder) == [(1, 1), (1, 2)]
+def test_the_metrics_of_all_runs_are_gathered_in_their_order(folder):
+    for run in (1, 0, 2):
+        records = folder.records(run, 3)
+        records.path.mkdir()
+        records.metrics.write_text(f'{{"run": {run + 1}, "generation": 1}}\n')
+    folder.gather(3)
+    assert [line["run"] for line in folder.lines()] == [1, 2, 3]
 
 
-def test_metrics_are_cut_back_to_the_state(folder, lived):
-    for progress, line in lived[:3]:
-        folder.save(progress, line)
-    before = folder.metrics.read_bytes()
-    with folder.metrics.open("a") as file:  # as if killed between the two
-        file.write(json.dumps(lived[3][1]) + "\n" + '{"run": 1, "gener')
-    folder.progress()
-    assert folder.metrics.read_bytes() == before
-
-
-def test_metrics_of_a_run_that_has_its_answer_are_kept(folder, lived):
-    for progress, line in lived[:6]:
-        folder.save(progress, line)
-    found = folder.progress()
-    assert (found.run, found.state.generation) == (1, 1)
-    assert lines_of(folder) == [(1, 1), (1, 2), (1, 3), (1, 4), (2, 1)]
-
-
-def test_metrics_without_a_state_are_begun_anew(folder):
+def test_the_metrics_of_the_only_run_are_left_as_they_are(folder):
     folder.metrics.write_text('{"run": 1, "generation": 1}\n')
-    assert folder.progress() is None
-    assert folder.lines() == []
-
-
-def test_a_damaged_checkpoint_is_an_error_that_says_what_to_do(folder, lived):
-    folder.save(*lived[0])
-    path = folder.path / "checkpoint.npz"
-    path.write_bytes(path.read_bytes()[:-3])
-    with pytest.raises(FolderError, match=r"is damaged.*remove the folder to start again"):
-        folder.progress()
+    folder.gather(1)
+    assert folder.lines() == [{"run": 1, "generation": 1}]
 
 
 def test_a_note_tells_what_was_run_and_with_what(folder):
     folder.write_note(WHO)
     note = json.loads(folder.note.read_text())
-    assert (note["format"], note["seed"], note["runs"], note["set"]) == (1, 3, 2, ["design.sharing=value"])
+    assert (note["format"], note["seed"], note["runs"], note["set"]) == (2, 3, 2, ["design.sharing=value"])
     assert len(note["spec_sha256"]) == 64
     assert "numba" in note["versions"]
     assert "result" not in note

@@ -1,7 +1,6 @@
 import json
 from itertools import islice
 
-import numpy as np
 import pytest
 
 from bbsd.evaluation import agents_of, detailed, evaluation
@@ -16,24 +15,23 @@ SEED, N_RUNS = 11, 2
 
 
 def whole(problem, settings, path, n_runs=N_RUNS, at=None):
-    """A command from start to end: its metrics, its last state's bytes, and how it is judged.
+    """All runs from start to end: their metrics, the last one's last state's bytes, and how they are judged.
 
     With `at`, the state is written down and read back after so many generations or answers.
     """
-    progress, lines, done = start(problem, settings, SEED), [], 0
-    while done is not None:
-        steps = generations(progress, problem, settings, SEED, n_runs)
-        for progress, line in steps:
-            lines.append(json.dumps(line))
-            done += 1
-            if done == at:
+    answers, lines = [], []
+    for run in range(n_runs):
+        reached = start(problem, settings, SEED, run)
+        while reached.answer is None:
+            for progress, line in generations(reached, problem, settings, SEED):
+                lines.append(json.dumps(line))
                 checkpoint.save(path, progress)
-                progress = checkpoint.load(path)  # noqa: PLW2901 - what a resumed command goes on from
-                break
-        else:
-            done = None
-    checkpoint.save(path, progress)
-    return lines, path.read_bytes(), judged(judge(progress, problem, settings, SEED))
+                reached = progress
+                if len(lines) == at:
+                    reached = checkpoint.load(path)  # what a resumed command goes on from
+                    break
+        answers.append(reached.answer)
+    return lines, path.read_bytes(), judged(judge(answers, problem, settings, SEED))
 
 
 def judged(judgement):
@@ -62,7 +60,7 @@ def test_several_robots_with_an_end_and_draws_give_the_same_bits_on_any_lanes():
     for lanes in (3, 16):
         problem = problem_of(RICH, lanes=lanes)
         settings = settings_of(problem.meaning)
-        steps = generations(start(problem, settings, SEED), problem, settings, SEED, 1)
+        steps = generations(start(problem, settings, SEED, 0), problem, settings, SEED)
         told.append([line for _, line in islice(steps, settings.coevolution.generations)])
     assert told[0] == told[1]
 
@@ -90,15 +88,19 @@ def test_a_design_is_judged_on_fresh_episodes_and_is_better_than_random(uninterr
     assert lifetime.mean <= evaluated.mean + 0.5
 
 
+def last(steps):
+    *_, (progress, _) = steps
+    return progress.answer
+
+
 def test_the_best_of_the_runs_answers_is_taken():
     problem, settings = guess(lanes=50)
-    *_, (progress, _) = generations(start(problem, settings, SEED), problem, settings, SEED, 3)
-    best = judge(progress, problem, settings, SEED)
-    ends = np.cumsum([table.n_cells for table in problem.tables])[:-1]
-    assert len(progress.answer_tables) == 3
+    answers = [
+        last(generations(start(problem, settings, SEED, run), problem, settings, SEED)) for run in range(3)
+    ]
+    best = judge(answers, problem, settings, SEED)
     means = []
-    for tables, structure in zip(progress.answer_tables, progress.answer_structures, strict=True):
-        each = type(best.architecture)(tuple(np.split(tables, ends)), structure)
+    for each in answers:
         outcomes = detailed(problem, agents_of([each]), keys(1, 0, 2000), 4)
         means.append(evaluation(problem, outcomes, 1).mean)
     outcomes = detailed(problem, agents_of([best.architecture]), keys(1, 0, 2000), 4)
