@@ -267,13 +267,23 @@ def design(
 
 
 def price(
-    spec: Spec, *, seed: int = 0, runs: int = 1, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()
+    spec: Spec,
+    *,
+    seed: int = 0,
+    runs: int = 1,
+    lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
+    starting: float = 0.0,
+    overrides: Sequence[str] = (),
 ) -> Price:
-    """What `design` would cost, from a sample of its episodes; raises as `design`, and writes nothing."""
+    """What `design` would cost, from a sample of its episodes; raises as `design`, and writes nothing.
+
+    `starting` are the seconds that a process needs before it begins with it, and are added.
+    """
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = _with_holes(loaded, lanes)
     with _reward_at_its_place(loaded):
-        return price_of(problem, settings_of(loaded.meaning), seed, runs)
+        return price_of(problem, settings_of(loaded.meaning), seed, runs, jobs, starting)
 
 
 def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:

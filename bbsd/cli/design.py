@@ -2,6 +2,7 @@
 
 import shlex
 import sys
+import time
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -50,7 +51,16 @@ def design(
 
     if dry_run:
         _show_price(
-            api.price(spec, seed=seed, runs=runs, lanes=lanes, overrides=overrides or ()), as_json=as_json
+            api.price(
+                spec,
+                seed=seed,
+                runs=runs,
+                lanes=lanes,
+                jobs=jobs,
+                starting=time.process_time(),
+                overrides=overrides or (),
+            ),
+            as_json=as_json,
         )
         return
     console = error_console()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass, replace
 from math import log10
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,9 +13,12 @@ import numpy as np
 from bbsd.evaluation import detailed
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word
+from bbsd.solver import metrics
+from bbsd.solver.generation import beginning, next_generation
 from bbsd.solver.lifetime import live
 from bbsd.solver.race import FIRST_ROUND
 from bbsd.solver.random_agents import random_agents
+from bbsd.solver.rehearsal import in_the_smallest, rehearse
 from bbsd.solver.run import RANDOM_AGENTS, RANDOM_EPISODES
 from bbsd.spec.meaning import seed_key
 from bbsd.spec.meaning.structure import OPEN_LAYER
@@ -66,20 +69,48 @@ class Price:
     """Steps of robots in all of them, at most."""
     bytes: int
     """Memory of the process, about."""
+    starting: float
+    """Seconds of this process so far."""
     compiling: float
     """Seconds until the kernels run; less where they are kept from before."""
+    breeding: float
+    """Seconds of a generation beside the lives of its agents."""
     microseconds: float
     """Of an agent's episode in a lifetime, all that is learned after it included."""
     seconds: float
     """Of the whole, about."""
 
 
-def price(problem: Problem, settings: Settings, seed: int, n_runs: int) -> Price:
-    """Return the price of so many runs; lives some episodes for it and writes nothing."""
-    compiling, each = _timed(problem, settings, fold(seed_key(seed), SAMPLE))
-    episodes = n_runs * settings.coevolution.generations * _lifetimes(settings)
-    further = n_runs * settings.answer.candidates * RACED + _judged(settings)
+@dataclass(frozen=True, slots=True)
+class _Sample:
+    """Seconds that were measured: until everything is compiled, of breeding, and of an agent's episode."""
+
+    compiling: float
+    breeding: float
+    episode: float
+    hastened: float
+    """How much faster several threads are."""
+
+
+def price(
+    problem: Problem, settings: Settings, seed: int, n_runs: int, jobs: int = 1, starting: float = 0.0
+) -> Price:
+    """The price of so many runs; lives some episodes for it and writes nothing.
+
+    Times are the processor's, so that they do not depend on what else the machine does. With several jobs runs go side
+    by side, and threads share what is lived.
+    """
+    processes = min(n_runs, jobs)
+    sampled = replace(problem, jobs=jobs // processes)
+    sample = _measured(sampled, settings, fold(seed_key(seed), SAMPLE))
+    lived, raced = settings.coevolution.generations * _lifetimes(settings), _raced(settings)
+    run = (
+        settings.coevolution.generations * sample.breeding
+        + (lived + raced) * sample.episode / sample.hastened
+    )
+    one_after_the_other = -(-n_runs // processes)
     environment = problem.meaning.spec.environment
+    episodes, further = n_runs * lived, n_runs * raced + _judged(settings)
     return Price(
         tables=_tables(problem),
         layers=len(problem.layers),
@@ -88,10 +119,15 @@ def price(problem: Problem, settings: Settings, seed: int, n_runs: int) -> Price
         episodes=episodes,
         further_episodes=further,
         steps=(episodes + further) * environment.steps * environment.robots,
-        bytes=resident() + _bytes(problem, settings),
-        compiling=compiling,
-        microseconds=each * 1e6,
-        seconds=compiling + (episodes + further) * each,
+        bytes=processes * (resident() + _bytes(problem, settings)),
+        starting=starting,
+        compiling=sample.compiling,
+        breeding=sample.breeding,
+        microseconds=sample.episode * 1e6,
+        seconds=starting
+        + sample.compiling
+        + one_after_the_other * run
+        + _judged(settings) * sample.episode / sample.hastened,
     )
 
 
@@ -113,36 +149,56 @@ def _lifetimes(settings: Settings) -> int:
     return settings.coevolution.agents * settings.learning.lifetime
 
 
+def _raced(settings: Settings) -> int:
+    return settings.answer.candidates * min(RACED, settings.answer.episodes)
+
+
 def _judged(settings: Settings) -> int:
     return settings.answer.judged + RANDOM_AGENTS * RANDOM_EPISODES + _lifetimes(settings)
 
 
-def _timed(problem: Problem, settings: Settings, key: int) -> tuple[float, float]:
-    """Return the seconds until everything is compiled, and those of an agent's episode."""
+def _measured(problem: Problem, settings: Settings, key: int) -> _Sample:
     first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
+    breeding = _generation_seconds(problem, settings, key)
     lifetime = min(SAMPLED_EPISODES, settings.learning.lifetime)
-    n_agents, seconds = min(problem.lanes, settings.coevolution.agents), 0.0
+    n_agents, seconds, began = min(problem.lanes, settings.coevolution.agents), 0.0, 0.0
     while seconds < LONG_ENOUGH:
+        began = perf_counter()
         seconds = _seconds(_live, problem, settings, key, n_agents, lifetime)
-        each = seconds / (n_agents * lifetime)
+        clock, each = perf_counter() - began, seconds / (n_agents * lifetime)
+        hastened = min(max(1.0, seconds / clock), problem.jobs)
         if n_agents == settings.coevolution.agents:
             break
         n_agents = min(settings.coevolution.agents, 4 * n_agents)
-    return max(0.0, first - second), each
+    return _Sample(max(0.0, first - second), breeding, each, hastened)
 
 
 def _seconds(what: Callable[..., object], *arguments: object) -> float:
-    began = perf_counter()
+    began = process_time()
     what(*arguments)
-    return perf_counter() - began
+    return process_time() - began
 
 
 def _all_kernels(problem: Problem, settings: Settings, key: int) -> None:
     """Call once whatever is compiled when it is called."""
-    _live(problem, settings, key, 1, min(SAMPLED_EPISODES, settings.learning.lifetime))
+    rehearse(problem, settings)
     agents = random_agents(problem, key, 1)
     for _ in detailed(problem, agents, keys(key, 0, 1), settings.coevolution.generations):
         pass
+
+
+def _generation_seconds(problem: Problem, settings: Settings, key: int) -> float:
+    """The seconds of a generation but for its lives: whole pools, and next to no agents."""
+    few = in_the_smallest(settings)
+    whole = replace(settings.coevolution, agents=few.coevolution.agents)
+    few = replace(settings, coevolution=whole, learning=few.learning)
+    state, _ = next_generation(beginning(problem, few, key), problem, few, key)
+
+    def generation() -> None:
+        following, census = next_generation(state, problem, few, key)
+        metrics.line(0, following, census, problem)
+
+    return _seconds(generation)
 
 
 def _live(problem: Problem, settings: Settings, key: int, n_agents: int, lifetime: int) -> None:

@@ -36,10 +36,30 @@ def test_the_search_space_is_that_of_all_tables_and_orders(price):
     assert [table.behavior for table in price.tables] == [*api.load(SPEC).spec.behaviors]
 
 
-def test_time_grows_with_episodes_and_holds_the_compilation(price):
-    assert price.seconds > price.compiling >= 0
+def test_time_is_that_of_runs_and_judgement_after_everything_is_compiled(price):
+    coevolution = api.load(SPEC).spec.design.coevolution
     lived = (price.episodes + price.further_episodes) * price.microseconds / 1e6
-    assert price.seconds == pytest.approx(price.compiling + lived)
+    bred = 2 * coevolution.generations * price.breeding
+    assert price.seconds == pytest.approx(price.starting + price.compiling + lived + bred)
+    assert price.breeding > 0
+
+
+def test_runs_side_by_side_take_the_time_of_one_and_the_memory_of_all():
+    alone, together = (api.price(SPEC, runs=8, jobs=jobs) for jobs in (1, 8))
+    assert (together.episodes, together.steps) == (alone.episodes, alone.steps)
+    assert together.bytes > 4 * alone.bytes
+    design = api.load(SPEC).spec.design
+    judged = design.answer.judged + 10_000 + design.coevolution.agents * design.learning.episodes
+    one = (together.episodes + together.further_episodes - judged) / 8
+    lived = (one + judged) * together.microseconds / 1e6
+    bred = design.coevolution.generations * together.breeding
+    assert together.seconds == pytest.approx(together.compiling + lived + bred)
+
+
+def test_what_came_before_is_added():
+    price = api.price(SPEC, starting=1000.0)
+    assert price.starting == 1000
+    assert 1000 < price.seconds < 2000
 
 
 def test_nothing_is_written(tmp_path, monkeypatch):
