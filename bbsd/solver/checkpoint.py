@@ -41,12 +41,17 @@ class CheckpointError(ValueError):
 
 def save(path: Path, progress: Progress) -> None:
     """Write the state beside its digest, whole or not at all."""
+    part = path.with_suffix(".part")
+    part.write_bytes(packed(progress))
+    part.replace(path)
+
+
+def packed(progress: Progress) -> bytes:
+    """The content of the file."""
     buffer = BytesIO()
     np.savez(buffer, **_arrays(progress), allow_pickle=False)
     content = buffer.getvalue()
-    part = path.with_suffix(".part")
-    part.write_bytes(sha256(content).digest() + content)
-    part.replace(path)
+    return sha256(content).digest() + content
 
 
 def load(path: Path) -> Progress:

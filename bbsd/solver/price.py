@@ -5,37 +5,24 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass, replace
 from math import log10
-from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.evaluation import detailed
-from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word
-from bbsd.solver import metrics
-from bbsd.solver.generation import beginning, next_generation
-from bbsd.solver.lifetime import live
 from bbsd.solver.race import FIRST_ROUND
-from bbsd.solver.random_agents import random_agents
-from bbsd.solver.rehearsal import in_the_smallest, rehearse
 from bbsd.solver.run import RANDOM_AGENTS, RANDOM_EPISODES
+from bbsd.solver.sampling import sample
 from bbsd.spec.meaning import seed_key
 from bbsd.spec.meaning.structure import OPEN_LAYER
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from bbsd.compiler import Problem
     from bbsd.solver.settings import Settings
 
 SAMPLE = name_word("sample")
-SAMPLED_EPISODES = 3
-"""Episodes of a sampled lifetime: one as born, the others with a structure that was searched for."""
-LONG_ENOUGH = 0.3
-"""Seconds after which a sample is believed."""
-RACED = 4 * FIRST_ROUND
-"""Episodes that a candidate lives in the final race on average, by experience."""
+RACED = 2 * FIRST_ROUND
+"""Episodes for each candidate that may enter the final race, by experience: many behave alike, most lose early."""
 NUMBER = 8
 """Bytes."""
 
@@ -74,22 +61,13 @@ class Price:
     compiling: float
     """Seconds until the kernels run; less where they are kept from before."""
     breeding: float
-    """Seconds of a generation beside the lives of its agents."""
+    """Seconds of a generation beside the episodes of its agents."""
+    drawing: float
+    """Seconds in which random tables are drawn: of first pools, and of agents that a design is compared with."""
     microseconds: float
     """Of an agent's episode in a lifetime, all that is learned after it included."""
     seconds: float
     """Of the whole, about."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Sample:
-    """Seconds that were measured: until everything is compiled, of breeding, and of an agent's episode."""
-
-    compiling: float
-    breeding: float
-    episode: float
-    hastened: float
-    """How much faster several threads are."""
 
 
 def price(
@@ -102,13 +80,14 @@ def price(
     """
     processes = min(n_runs, jobs)
     sampled = replace(problem, jobs=jobs // processes)
-    sample = _measured(sampled, settings, fold(seed_key(seed), SAMPLE))
-    lived, raced = settings.coevolution.generations * _lifetimes(settings), _raced(settings)
-    run = (
-        settings.coevolution.generations * sample.breeding
-        + (lived + raced) * sample.episode / sample.hastened
-    )
+    taken = sample(sampled, settings, fold(seed_key(seed), SAMPLE))
+    generations, agents = settings.coevolution.generations, settings.coevolution.agents
+    lived, raced = generations * _lifetimes(settings), _raced(settings)
+    episode = taken.episode / taken.hastened
     one_after_the_other = -(-n_runs // processes)
+    run = generations * taken.generation(agents) + (lived + raced) * episode
+    judging = _judged(settings) * episode
+    drawing = (one_after_the_other * settings.coevolution.population + RANDOM_AGENTS) * taken.newborn
     environment = problem.meaning.spec.environment
     episodes, further = n_runs * lived, n_runs * raced + _judged(settings)
     return Price(
@@ -121,13 +100,11 @@ def price(
         steps=(episodes + further) * environment.steps * environment.robots,
         bytes=processes * (resident() + _bytes(problem, settings)),
         starting=starting,
-        compiling=sample.compiling,
-        breeding=sample.breeding,
-        microseconds=sample.episode * 1e6,
-        seconds=starting
-        + sample.compiling
-        + one_after_the_other * run
-        + _judged(settings) * sample.episode / sample.hastened,
+        compiling=taken.compiling,
+        breeding=taken.generation(agents),
+        drawing=drawing,
+        microseconds=taken.episode * 1e6,
+        seconds=starting + taken.compiling + one_after_the_other * run + judging + drawing,
     )
 
 
@@ -150,76 +127,25 @@ def _lifetimes(settings: Settings) -> int:
 
 
 def _raced(settings: Settings) -> int:
-    return settings.answer.candidates * min(RACED, settings.answer.episodes)
+    """Return the episodes of a run's final race, about."""
+    agents = settings.coevolution.agents * settings.coevolution.generations
+    return min(settings.answer.candidates, agents) * min(RACED, settings.answer.episodes)
 
 
 def _judged(settings: Settings) -> int:
     return settings.answer.judged + RANDOM_AGENTS * RANDOM_EPISODES + _lifetimes(settings)
 
 
-def _measured(problem: Problem, settings: Settings, key: int) -> _Sample:
-    first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
-    breeding = _generation_seconds(problem, settings, key)
-    lifetime = min(SAMPLED_EPISODES, settings.learning.lifetime)
-    n_agents, seconds, began = min(problem.lanes, settings.coevolution.agents), 0.0, 0.0
-    while seconds < LONG_ENOUGH:
-        began = perf_counter()
-        seconds = _seconds(_live, problem, settings, key, n_agents, lifetime)
-        clock, each = perf_counter() - began, seconds / (n_agents * lifetime)
-        hastened = min(max(1.0, seconds / clock), problem.jobs)
-        if n_agents == settings.coevolution.agents:
-            break
-        n_agents = min(settings.coevolution.agents, 4 * n_agents)
-    return _Sample(max(0.0, first - second), breeding, each, hastened)
-
-
-def _seconds(what: Callable[..., object], *arguments: object) -> float:
-    began = process_time()
-    what(*arguments)
-    return process_time() - began
-
-
-def _all_kernels(problem: Problem, settings: Settings, key: int) -> None:
-    """Call once whatever is compiled when it is called."""
-    rehearse(problem, settings)
-    agents = random_agents(problem, key, 1)
-    for _ in detailed(problem, agents, keys(key, 0, 1), settings.coevolution.generations):
-        pass
-
-
-def _generation_seconds(problem: Problem, settings: Settings, key: int) -> float:
-    """The seconds of a generation but for its lives: whole pools, and next to no agents."""
-    few = in_the_smallest(settings)
-    whole = replace(settings.coevolution, agents=few.coevolution.agents)
-    few = replace(settings, coevolution=whole, learning=few.learning)
-    state, _ = next_generation(beginning(problem, few, key), problem, few, key)
-
-    def generation() -> None:
-        following, census = next_generation(state, problem, few, key)
-        metrics.line(0, following, census, problem)
-
-    return _seconds(generation)
-
-
-def _live(problem: Problem, settings: Settings, key: int, n_agents: int, lifetime: int) -> None:
-    """Let random agents live and learn, as in the last generation."""
-    agents = random_agents(problem, key, n_agents)
-    learning = replace(settings.learning, lifetime=lifetime)
-    live(problem, agents, keys(key, 0, n_agents), settings.coevolution.generations, learning)
-
-
 def _bytes(problem: Problem, settings: Settings) -> int:
-    """Return the bytes of the large arrays of a run."""
+    """The bytes of the large arrays of a run, where it has most of them: in a generation, or when it is judged."""
     cells = sum(table.n_cells for table in problem.tables)
     n_layers, n_behaviors = len(problem.layers), problem.n_behaviors
     evolved, learning = settings.coevolution, settings.learning
-    agent = NUMBER * (learning.lifetime + n_layers * n_behaviors + n_layers + 5 * n_behaviors)
-    searched = NUMBER * n_layers * (learning.candidates if learning.learned else 0)
-    return (
-        evolved.population * cells
-        + evolved.agents * (agent + searched + cells)
-        + settings.answer.candidates * (cells + NUMBER * RACED)
-    )
+    agent = NUMBER * (learning.lifetime + 2 * n_layers * n_behaviors + n_layers + 5 * n_behaviors)
+    champions = settings.answer.candidates * cells
+    generation = 3 * cells * (evolved.population + evolved.agents) + evolved.agents * agent + 2 * champions
+    race = champions + settings.answer.candidates * NUMBER * RACED
+    return max(generation, race, champions + 3 * cells * RANDOM_AGENTS)
 
 
 def resident() -> int:
