@@ -6,11 +6,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from benchmarks import growth, guard, processes, rollout
+from benchmarks import growth, guard, mobile, processes, rollout
 from benchmarks.page import asked_section, machine
 from benchmarks.timing import on_one_core
 
-SECTIONS = {"rollout": rollout, "guard": guard, "growth": growth, "processes": processes}
+SECTIONS = {"rollout": rollout, "mobile": mobile, "guard": guard, "growth": growth, "processes": processes}
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 HEAD = """# Benchmarks
@@ -27,18 +27,22 @@ def main() -> int:
         "--quick", action="store_true", help="small sizes, few rounds; prints and writes no file"
     )
     parser.add_argument(
-        "--only", choices=SECTIONS, nargs="+", help="print only these sections; writes no file"
+        "parts",
+        choices=[*SECTIONS, []],
+        nargs="*",
+        metavar="PART",
+        help=f"print only these, of {', '.join(SECTIONS)}",
     )
     arguments = parser.parse_args()
     on_one_core()
     parts, asked = [HEAD, machine()], []
-    for name in arguments.only or SECTIONS:
+    for name in arguments.parts or SECTIONS:
         print(f"{name} ...", file=sys.stderr)
         text, bounds = SECTIONS[name].section(quick=arguments.quick)
         parts.append(text)
         asked += bounds
     page = "\n\n".join([*parts[:2], asked_section(asked), *parts[2:]]) + "\n"
-    if arguments.quick or arguments.only:
+    if arguments.quick or arguments.parts:
         print(page)
     else:
         PAGE.write_text(page, encoding="utf-8")

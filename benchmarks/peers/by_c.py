@@ -16,7 +16,8 @@ from benchmarks.lifting import BEHAVIORS, Lived
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from benchmarks.lifting import Workload
+    from benchmarks.lifting import Floats, Workload
+    from benchmarks.mobile import Wandering
 
 OPTIONS = ("-O3", "-march=native", "-ffp-contract=off", "-shared", "-fPIC")
 
@@ -34,6 +35,30 @@ def prepare_tuned(workload: Workload) -> Callable[[], Lived]:
 def prepare_simd(workload: Workload) -> Callable[[], Lived]:
     """Explicit vectors with bbsd's arctangent."""
     return _prepare("simd.c", workload)
+
+
+def prepare_mobile(wandering: Wandering) -> Callable[[], Floats]:
+    """The mobile robot, one episode at a time, with libm."""
+    return _prepare_mobile(wandering)
+
+
+def prepare_mobile_own(wandering: Wandering) -> Callable[[], Floats]:
+    """The same with bbsd's sine, cosine, arctangent and logarithm."""
+    return _prepare_mobile(wandering, "-DOWN")
+
+
+def _prepare_mobile(wandering: Wandering, *options: str) -> Callable[[], Floats]:
+    wander = _compiled(Path(__file__).with_name("mobile_robot.c"), options).wander
+    count = len(wandering.keys)
+    returns, credit = np.empty(count), np.empty((count, wandering.structures.shape[1] + 1))
+    arrays = [np.ascontiguousarray(each) for each in wandering] + [returns, credit]
+    arguments = [ctypes.c_int64(count), *(ctypes.c_void_p(array.ctypes.data) for array in arrays)]
+
+    def live() -> Floats:
+        wander(*arguments)
+        return arrays[-2].copy()
+
+    return live
 
 
 def _prepare(source: str, workload: Workload, *options: str) -> Callable[[], Lived]:
