@@ -6,11 +6,21 @@ import argparse
 import sys
 from pathlib import Path
 
-from benchmarks import growth, guard, mobile, processes, rollout
+from benchmarks import growth, guard, large, mobile, prices, processes, rollout, together, whole
 from benchmarks.page import asked_section, machine
 from benchmarks.timing import on_one_core
 
-SECTIONS = {"rollout": rollout, "mobile": mobile, "guard": guard, "growth": growth, "processes": processes}
+SECTIONS = {
+    "rollout": rollout,
+    "mobile": mobile,
+    "whole": whole,
+    "guard": guard,
+    "large": large,
+    "growth": growth,
+    "processes": processes,
+    "together": together,
+    "prices": prices,
+}
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 HEAD = """# Benchmarks

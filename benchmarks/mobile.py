@@ -137,8 +137,8 @@ def written(n_agents: int, times: dict[str, Floats], notes: dict[str, str]) -> s
                 f"One episode of each of {n_agents} random agents of `specs/mobile_robot.yaml`, up to 600 steps, until "
                 "the lamp is reached. The C port was written by hand from the spec, with branches, and stops with each "
                 "episode; bbsd goes on until all of its 40 lanes are through. All draw the same numbers, so the "
-                "episodes are the same. Where libm's last bits differ from bbsd's, a robot may sense another cell once, "
-                "and the episode takes another course from there: with bbsd's functions in C nothing differs."
+                "episodes are the same. The last bits of libm's functions are not bbsd's: a robot could by them sense "
+                "another cell once and take another course from there. With bbsd's functions in C nothing differs."
             ),
             "",
             *table(["", "time, C with libm = 1", "", "bbsd is faster by", "returns beside bbsd's"], rows),

@@ -91,12 +91,14 @@ def measured(folder: Path, *, quick: bool) -> dict[str, list[Spent]]:
         PASS: lambda _: spent([sys.executable, "-c", "pass"], warm),
         HELP: lambda _: spent([*bbsd, "--help"], warm),
         CHECK: lambda _: spent([*bbsd, "check", LIFTING], warm),
-        DESIGN_LIFTING: lambda turn: spent(_design(LIFTING, folder / f"lifting-{turn}"), warm),
+        DESIGN_LIFTING: lambda turn: spent(design_command(LIFTING, folder / f"lifting-{turn}"), warm),
         NEW: lambda turn: to_first_generation(folder / f"new-{turn}", warm, steps=301 + turn),
         COLD: lambda turn: to_first_generation(folder / f"cold-{turn}", folder / f"cache-{turn}", steps=300),
     }
     if not quick:
-        commands[DESIGN_ABSTRACT] = lambda turn: spent(_design(ABSTRACT, folder / f"abstract-{turn}"), warm)
+        commands[DESIGN_ABSTRACT] = lambda turn: spent(
+            design_command(ABSTRACT, folder / f"abstract-{turn}"), warm
+        )
     for what in commands.keys() - {NEW, COLD}:
         commands[what](-1)
     found: dict[str, list[Spent]] = {what: [] for what in commands}
@@ -108,13 +110,13 @@ def measured(folder: Path, *, quick: bool) -> dict[str, list[Spent]]:
     return found
 
 
-def _design(spec: str, out: Path) -> list[str]:
+def design_command(spec: str, out: Path) -> list[str]:
     return [sys.executable, "-m", "bbsd", "design", spec, "--quiet", "--out", str(out)]
 
 
 def to_first_generation(out: Path, cache: Path, steps: int) -> Spent:
     """A design with so many steps, stopped when its first generation is written down."""
-    command = [*_design(LIFTING, out), "--set", f"environment.steps={steps}"]
+    command = [*design_command(LIFTING, out), "--set", f"environment.steps={steps}"]
     return spent(command, cache, until=str(out / "metrics.jsonl"))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
 Floats = npt.NDArray[np.float64]
+
+CORES = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set(range(os.cpu_count() or 1))
+"""Those that this process may use."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +35,13 @@ def spread(values: Floats) -> Spread:
     return Spread(float(median), float(low), float(high))
 
 
-def alternated(calls: Mapping[str, Callable[[], Any]], rounds: int) -> dict[str, Floats]:
-    """Seconds of the processor's time that each call took in each round, (rounds,); the order turns round by round.
+def alternated(
+    calls: Mapping[str, Callable[[], Any]], rounds: int, clock: Callable[[], float] = time.process_time
+) -> dict[str, Floats]:
+    """Seconds that each call took in each round, (rounds,); the order turns round by round.
 
-    Processor time and not the clock's: a busy machine interrupts long calls more often than short ones.
+    Of the processor's time and not the clock's, but where several cores work: a busy machine interrupts long calls more
+    often than short ones.
     """
     names = list(calls)
     times = {name: np.empty(rounds) for name in names}
@@ -42,14 +49,28 @@ def alternated(calls: Mapping[str, Callable[[], Any]], rounds: int) -> dict[str,
         call()
     for turn in range(rounds):
         for name in names if turn % 2 else reversed(names):
-            began = time.process_time()
+            began = clock()
             calls[name]()
-            times[name][turn] = time.process_time() - began
+            times[name][turn] = clock() - began
     return times
 
 
 def on_one_core() -> None:
     """Keep this process and its children on one core, where the system can; and XLA to one thread."""
     if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+        os.sched_setaffinity(0, {max(CORES)})
     os.environ["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
+
+
+@contextmanager
+def on_all_cores() -> Iterator[None]:
+    """Let this process and its children use every core that it had when it began."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, CORES)
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)
