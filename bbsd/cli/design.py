@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
+from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.report.figures import curves
 from bbsd.report.plain import design_plain, json_text
@@ -33,7 +33,14 @@ def design(
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
     lanes: Lanes = 40,
-    jobs: Jobs = 1,
+    jobs: Annotated[
+        int,
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="Processes for several runs, threads for the rest; the result is the same.",
+        ),
+    ] = 1,
     overrides: Overrides = None,
     as_json: AsJson = False,
     dry_run: Annotated[
