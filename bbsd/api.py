@@ -38,7 +38,7 @@ from bbsd.solver.interruption import interrupts_noted
 from bbsd.solver.price import Price
 from bbsd.solver.price import price as price_of
 from bbsd.solver.random_agents import random_agents
-from bbsd.solver.run import judge
+from bbsd.solver.run import RANDOM_EPISODES, judge
 from bbsd.solver.settings import settings_of
 from bbsd.spec.loading import Loaded
 from bbsd.spec.loading import check as check_source
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from bbsd.evaluation.episodes import Keys
 
 EVALUATION = name_word("evaluation")
-EPISODES, EPISODES_AT_RANDOM = 1000, runs.RANDOM_EPISODES
+EPISODES, EPISODES_AT_RANDOM = 1000, RANDOM_EPISODES
 """Episodes that a design lives by default, and that each of many random agents does, as in a design's comparison."""
 
 Spec = str | Path | Loaded
