@@ -85,7 +85,7 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
             "",
             *table(["what grows", "sizes", "time, last / first", "exponent"], rows),
             "",
-            "![Time against size, both relative to the smallest](images/growth.png)",
+            "![Time against size, both relative to the smallest; cells go on beyond the edge](images/growth.png)",
         ]
     ), asked
 

@@ -22,7 +22,7 @@ LEAST = 2.0
 """Kept loops gain 3 (large tables) to 11 with 8 numbers a vector, lost ones 0.9 to 1.5; one scalar call goes unseen."""
 AGENTS, POPULATION = 400, 20
 SLOW = ("16 robots", "64 robots")
-PATIENCE = 90
+PATIENCE = 60
 """Seconds until a spec counts as too slow to compile."""
 
 SHAPES = {

@@ -24,7 +24,7 @@ SIZES = {
 }
 ASKED_OF, MOST = "64 robots, 32 behaviors", 10.0
 AGENTS, POPULATION, EPISODES = 10_000, 20, 2
-PATIENCE = 120
+PATIENCE = 60
 """Seconds until it counts as too slow."""
 
 

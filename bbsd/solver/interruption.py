@@ -50,18 +50,22 @@ class Wish:
         return self._made.is_set()
 
 
-_wish: ContextVar[Wish] = ContextVar("wish", default=Wish())  # noqa: B039 - nobody makes the default one
+_wish: ContextVar[Wish | None] = ContextVar("wish", default=None)
 
 
 def heed() -> None:
     """Raise KeyboardInterrupt if the design of this context should stop."""
-    if _wish.get().is_made:
+    wish = _wish.get()
+    if wish is not None and wish.is_made:
         raise KeyboardInterrupt
 
 
 def present_wish() -> Wish:
-    """The wish that is heeded in this context."""
-    return _wish.get()
+    """The wish that is heeded in this context, which must be one in which interrupts are noted."""
+    wish = _wish.get()
+    if wish is None:
+        raise RuntimeError("nobody notes interrupts here")
+    return wish
 
 
 def own_wish() -> Wish:
@@ -77,10 +81,11 @@ def interrupts_noted(overdue: Callable[[], object] | None = None) -> Iterator[No
 
     If one was not heeded within the grace period, `overdue` is called, in another thread.
     """
-    token = _wish.set(Wish())
+    wish = Wish()
+    token = _wish.set(wish)
     try:
         if threading.current_thread() is threading.main_thread():
-            with _handled(_wish.get()), _watched(_wish.get(), overdue):
+            with _handled(wish), _watched(wish, overdue):
                 yield
         else:
             yield

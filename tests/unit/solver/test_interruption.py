@@ -89,3 +89,9 @@ def test_a_wish_is_told_of_once_and_to_late_comers_at_once():
     wish.make()
     wish.when_made(lambda: told.append("late"))
     assert told == ["early", "late"]
+
+
+def test_where_nobody_notes_interrupts_there_is_no_wish():
+    heed()
+    with pytest.raises(RuntimeError, match="nobody notes"):
+        present_wish()
