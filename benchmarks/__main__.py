@@ -25,8 +25,9 @@ PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 HEAD = """# Benchmarks
 
-Written by `make bench`. Every ratio is of times taken in alternation in one run, on one core; absolute times are this
-machine's. What is measured, and how, is in `benchmarks/`.
+Written by `make bench`. Every ratio is of times taken in alternation in one run, on one core but where several are
+spoken of; absolute times are this machine's. What is measured, and how, is in `benchmarks/`; a part of it is measured by
+`python -m benchmarks PART`.
 """
 
 
@@ -37,13 +38,11 @@ def main() -> int:
         "--quick", action="store_true", help="small sizes, few rounds; prints and writes no file"
     )
     parser.add_argument(
-        "parts",
-        choices=[*SECTIONS, []],
-        nargs="*",
-        metavar="PART",
-        help=f"print only these, of {', '.join(SECTIONS)}",
+        "parts", nargs="*", metavar="PART", help=f"print only these, of {', '.join(SECTIONS)}"
     )
     arguments = parser.parse_args()
+    if unknown := set(arguments.parts) - set(SECTIONS):
+        parser.error(f"there is no part {', '.join(sorted(unknown))}; there are {', '.join(SECTIONS)}")
     on_one_core()
     parts, asked = [HEAD, machine()], []
     for name in arguments.parts or SECTIONS:

@@ -58,7 +58,7 @@ def machine() -> str:
     load = f", load {os.getloadavg()[0]:.1f} at the start" if hasattr(os, "getloadavg") else ""
     return "\n".join(
         [
-            f"- {datetime.now(UTC):%Y-%m-%d}, {_processor()}, {os.cpu_count()} cores, all on one of them{load}",
+            f"- {datetime.now(UTC):%Y-%m-%d}, {_processor()}, {os.cpu_count()} cores{load}",
             f"- {platform.system()}, Python {platform.python_version()}, {_compiler()}, "
             + ", ".join(f"{name} {_version(name)}" for name in PACKAGES),
         ]
