@@ -26,8 +26,8 @@ PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 HEAD = """# Benchmarks
 
 Written by `make bench`. Every ratio is of times taken in alternation in one run, on one core but where several are
-spoken of; absolute times are this machine's. What is measured, and how, is in `benchmarks/`; a part of it is measured by
-`python -m benchmarks PART`.
+spoken of; absolute times are this machine's. What is measured, and how, is in `benchmarks/`; a part alone is measured
+by `python -m benchmarks PART`.
 """
 
 
