@@ -278,7 +278,7 @@ def price(
 ) -> Price:
     """What `design` would cost, from a sample of its episodes; raises as `design`, and writes nothing.
 
-    `starting` are the seconds that a process needs before it begins with it, and are added.
+    `starting` are the seconds that a process needs before it begins with it and after it, and are added.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = _with_holes(loaded, lanes)

@@ -28,6 +28,7 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
     """The text of the section, and what was asked."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
+        design(LIFTING, folder / "first", folder)  # after it all bytecode is cached
         priced, asked = prices(folder, PRICED[:1] if quick else PRICED)
         longer = {what: memory(folder, what, settings) for what, settings in LONGER.items()}
     usual = longer["as it is"]

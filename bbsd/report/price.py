@@ -28,7 +28,7 @@ def price_text(price: Price) -> str:
         "steps": f"{price.steps:,} of robots at most",
         "memory": f"about {price.bytes / 1e6:,.0f} MB",
         "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs an episode, "
-        f"{duration(price.starting + price.compiling)} to start and to compile",
+        f"{duration(price.starting + price.compiling)} to start, to compile and to draw",
     }
     return "\n".join([*_tables(price), "", *(f"{name:<14}{text}" for name, text in rows.items())])
 

@@ -57,7 +57,7 @@ class Price:
     bytes: int
     """Memory of the process, about."""
     starting: float
-    """Seconds of this process so far."""
+    """Seconds that were said to be needed beside the design itself."""
     compiling: float
     """Seconds until the kernels run; less where they are kept from before."""
     breeding: float
