@@ -7,11 +7,14 @@ from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from bbsd.compiler.schedule import last, stages
+from bbsd.compiler.splitting import written
 from bbsd.expression.graph import Kind, Level
 
 if TYPE_CHECKING:
-    from bbsd.compiler.emission import Emitter
+    from bbsd.compiler.emission import Block, Emitter
     from bbsd.compiler.frame import Frame
+    from bbsd.expression.graph import Node
 
 ACTION_BITS = 16
 """A priority is the layer shifted by so many bits, plus what makes a choice the action's number."""
@@ -26,11 +29,13 @@ class Decision:
     @cached_property
     def kept(self) -> list[tuple[str, str]]:
         """For each behavior the arrays of its priority, and of its table: a word, or where its row of cells begins."""
-        keep = self.frame.keep_integer
-        pairs = zip(self.frame.episode.modules, self.frame.shapes, strict=True)
+        keep = self.frame.keep
         return [
-            (keep(f"priority_{module.name}"), keep(f"{'table' if shape.packed else 'row'}_{module.name}"))
-            for module, shape in pairs
+            (
+                keep(f"priority_{shape.name}", Kind.CELL),
+                keep(f"{'table' if shape.packed else 'row'}_{shape.name}", Kind.CELL),
+            )
+            for shape in self.frame.shapes
         ]
 
     def start(self) -> list[str]:
@@ -49,15 +54,27 @@ class Decision:
             return []
         frame, emitter = self.frame, self.frame.emitter("step", hinted=False)
         large = {index for index, _ in self._looked_up}
-        emitter.prepare(
-            node for index in large for robot in frame.episode.modules[index].cells for node in robot
-        )
-        stores, looks = [], []
+        cells = [node for index in large for robot in frame.episode.modules[index].cells for node in robot]
+        emitter.prepare(cells)
+        block, stores, looks = emitter.blocks.stage(self.stage), [], []
         for (index, robot), (cell, choice) in self._looked_up.items():
-            stores.append(f"{cell}[lane] = {self._cell(index, robot, emitter)}")
-            looks.append(f"{choice}[lane] = tables[{self.kept[index][1]}[lane] + {cell}[lane]]")
-        lane = [*emitter.blocks[Level.LANE].lines, *stores]
-        return [*emitter.blocks[Level.STEP].lines, *frame.lane_loop(lane), *frame.lane_loop(looks)]
+            stores.append(f"{frame.at(cell)} = {self._cell(index, robot, emitter, block)}")
+            row = f"{self.kept[index][1]}[lane]"
+            looks.append(f"{frame.at(choice)} = tables[{row} + {frame.at(cell)}]")
+        block.lines += stores
+        return written(emitter.blocks, frame, apart=looks)
+
+    @cached_property
+    def stage(self) -> int:
+        """The stage of a step in which the robots decide."""
+        level = Level.EACH if self.frame.looped else Level.LANE
+        return last(self.sensed, stages(self.sensed, 0), level)
+
+    @property
+    def sensed(self) -> list[Node]:
+        """What decisions depend on."""
+        modules = self.frame.episode.modules
+        return [node for module in modules for nodes in (module.excited, *module.cells) for node in nodes]
 
     @cached_property
     def _looked_up(self) -> dict[tuple[int, int], tuple[str, str]]:
@@ -65,54 +82,54 @@ class Decision:
         frame = self.frame
         return {
             (index, robot): (
-                frame.keep_integer(frame.robots_name(f"cell_{shape.name}", robot)),
-                frame.keep_integer(frame.robots_name(f"choice_{shape.name}", robot)),
+                frame.keep_own(frame.robots_name(f"cell_{shape.name}", robot), Kind.CELL),
+                frame.keep_own(frame.robots_name(f"choice_{shape.name}", robot), Kind.CELL),
             )
             for index, shape in enumerate(frame.shapes)
             for robot in range(frame.robots)
             if not shape.packed
         }
 
-    def decide(self, robot: int, emitter: Emitter) -> None:
+    def decide(self, robot: int, emitter: Emitter, block: Block) -> None:
         """Find the number of the action that controls a robot; 0 is nobody's."""
         call = self.frame.call_of
-        highest, *bids = [self._bid(index, robot, emitter) for index in range(len(self.frame.shapes))]
+        highest, *bids = [self._bid(index, robot, emitter, block) for index in range(len(self.frame.shapes))]
         for bid in bids:
             highest = call("maximum", highest, bid)
         mask = (1 << ACTION_BITS) - 1
         text = f"{call('maximum', highest, '0')} & {mask}"
-        emitter.blocks[Level.LANE].assign(self.frame.actions[robot], text, Kind.CELL)
+        block.assign(self.frame.actions[robot], text, Kind.CELL)
+        block.names[self.frame.episode.choices[robot].number] = self.frame.actions[robot]
 
-    def _bid(self, index: int, robot: int, emitter: Emitter) -> str:
+    def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
         """What a behavior bids for control: its priority and its choice; 0 where it is not activated."""
         frame, module = self.frame, self.frame.episode.modules[index]
-        block = emitter.blocks[Level.LANE]
-        looked = self._choice(index, robot, emitter)
+        looked = self._choice(index, robot, emitter, block)
         choice = frame.namer(frame.robots_name(f"choice_{module.name}", robot))
         block.assign(choice, looked, Kind.CELL)
-        excited = emitter.value(module.excited[robot])
+        excited = emitter.value(module.excited[robot], block)
         active = f"{choice} > 0" if excited == "True" else f"({choice} > 0) & ({excited})"
         bid = frame.namer(frame.robots_name(f"bid_{module.name}", robot))
         offer = f"{self.kept[index][0]}[lane] + {choice}"
         block.assign(bid, frame.call_of("select", active, offer, "0"), Kind.CELL)
         return bid
 
-    def _choice(self, index: int, robot: int, emitter: Emitter) -> str:
+    def _choice(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
         """The value of the behavior's table at the robot's cell."""
         shape = self.frame.shapes[index]
         if not shape.packed:
-            return f"{self._looked_up[index, robot][1]}[lane]"
-        table, cell = self.kept[index][1], self._cell(index, robot, emitter)
+            return self.frame.at(self._looked_up[index, robot][1])
+        table, cell = self.kept[index][1], self._cell(index, robot, emitter, block)
         if cell == "0":
             return f"{table}[lane] & {shape.mask}"
         shift = cell if shape.bits == 1 else f"{_grouped(cell)} * {shape.bits}"
         return f"({table}[lane] >> {_grouped(shift)}) & {shape.mask}"
 
-    def _cell(self, index: int, robot: int, emitter: Emitter) -> str:
+    def _cell(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
         """The index of the table's cell: row-major over the inputs."""
         module, text = self.frame.episode.modules[index], ""
         for node, labels in zip(module.cells[robot], module.inputs.values(), strict=True):
-            part = emitter.operand(node, tight=bool(text))
+            part = emitter.operand(node, block, tight=bool(text))
             text = f"{_grouped(text)} * {len(labels)} + {part}" if text else part
         return text or "0"
 

@@ -7,7 +7,8 @@ from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
-from bbsd.compiler.emission import Block, Emitter
+from bbsd.compiler.emission import Block, Blocks, Emitter
+from bbsd.compiler.looping import Loops
 from bbsd.compiler.naming import Namer, slot_text
 from bbsd.expression.graph import Kind, Level, Node, needed
 
@@ -40,9 +41,14 @@ class Frame:
     shapes: Sequence[TableShape]
     lanes: int
     detail: Detail
+    tables: dict[str, str] = field(default_factory=dict)
+    """Tables with an entry for each robot, source and name: they stand before the function."""
     namer: Namer = field(default_factory=Namer)
     numbers: list[str] = field(default_factory=list)
     integers: list[str] = field(default_factory=list)
+    own_numbers: list[str] = field(default_factory=list)
+    own_integers: list[str] = field(default_factory=list)
+    """Those of each robot, where there are loops over robots."""
     used: set[str] = field(default_factory=set)
     """Functions of the kernel that the text calls."""
     call: Block = field(default_factory=lambda: Block(Level.CALL))
@@ -54,8 +60,18 @@ class Frame:
 
     @property
     def robots(self) -> int:
+        """The number of robots that are written one after the other: 1 where there are loops over robots."""
+        return len(self.episode.choices)
+
+    @property
+    def team(self) -> int:
         """The number of robots."""
         return self.meaning.spec.environment.robots
+
+    @property
+    def looped(self) -> bool:
+        """Whether there are loops over robots."""
+        return self.robots < self.team
 
     def call_of(self, function: str, *arguments: str) -> str:
         """The text of a call of a kernel's function."""
@@ -66,46 +82,95 @@ class Frame:
         """A name for something of one robot."""
         return slot_text((stem, robot, ()), self.robots)
 
-    def keep(self, wanted: str) -> str:
-        """An array of a number in every lane."""
-        self.numbers.append(self.namer(wanted))
-        return self.numbers[-1]
+    def keep(self, wanted: str, kind: Kind = Kind.NUMBER, level: Level = Level.LANE) -> str:
+        """An array of a value in every lane, or in every lane of each robot; truths are kept as 0 and 1."""
+        return self._kept(self.namer(wanted), kind, level)
 
-    def keep_integer(self, wanted: str) -> str:
-        """An array of a whole number in every lane."""
-        self.integers.append(self.namer(wanted))
-        return self.integers[-1]
+    def keep_numbered(self, stem: str, kind: Kind, level: Level) -> str:
+        """The same by the stem and the first number that is free."""
+        return self._kept(self.namer.numbered(stem), kind, level)
+
+    def _kept(self, name: str, kind: Kind, level: Level) -> str:
+        if level is Level.EACH and self.looped:
+            arrays = self.own_integers if kind is Kind.CELL else self.own_numbers
+        else:
+            arrays = self.integers if kind is Kind.CELL else self.numbers
+        arrays.append(name)
+        return name
+
+    def keep_own(self, wanted: str, kind: Kind = Kind.NUMBER) -> str:
+        """An array of what each robot has of its own."""
+        return self.keep(wanted, kind, Level.EACH)
+
+    def at(self, array: str) -> str:
+        """An array's element of the present lane and robot."""
+        return f"{array}[own + lane]" if self.is_own(array) else f"{array}[lane]"
+
+    def is_own(self, array: str) -> bool:
+        """Whether an array holds a value of each robot."""
+        return array in self.own_numbers or array in self.own_integers
+
+    def store(self, array: str, text: str, kind: Kind, index: str = "") -> str:
+        """The line that keeps a value: truths as 0 and 1."""
+        kept = self.call_of("select", text, "1.0", "0.0") if kind is Kind.TRUTH else text
+        return f"{f'{array}[{index}]' if index else self.at(array)} = {kept}"
 
     def scratch(self) -> list[str]:
-        """The arrays of all that is kept."""
-        lines = [f"key = np.zeros({self.lanes}, np.uint64)"]
-        for array, kind, names in (
-            ("numbers", "np.float64", self.numbers),
-            ("cells", "np.int64", self.integers),
-        ):
-            lines += [f"{array} = np.zeros({len(names) * self.lanes}, {kind})"] if names else []
-            lines += [
-                f"{name} = {array}[{k * self.lanes}:{(k + 1) * self.lanes}]" for k, name in enumerate(names)
-            ]
-        return lines
+        """The arrays of all that is kept: the team's in one piece of memory, the robots' in another.
+
+        Few pieces, so that LLVM has few ranges to compare before it vectorizes a loop.
+        """
+        team = self._piece("", self.lanes, ["key"], self.numbers, self.integers)
+        if not self.looped:
+            return team
+        stride = (len(self.own_numbers) + len(self.own_integers)) * self.lanes
+        own = self._piece("own_", stride * self.team, [], self.own_numbers, self.own_integers)
+        return [*team, f"stride = {stride}", *own]
+
+    def _piece(
+        self, prefix: str, reach: int, words: Sequence[str], numbers: Sequence[str], integers: Sequence[str]
+    ) -> list[str]:
+        """One piece of memory, seen as numbers, whole numbers and words; each array begins so many lanes further on."""
+        every = [*words, *numbers, *integers]
+        views = [("streams", "np.uint64", words), ("cells", "np.int64", integers)]
+        size = max(reach, len(every) * self.lanes)
+        lines = [f"{prefix}numbers = np.zeros({size}, np.float64)"]
+        lines += [f"{prefix}{view} = {prefix}numbers.view({kind})" for view, kind, names in views if names]
+        of = {**dict.fromkeys(words, "streams"), **dict.fromkeys(numbers, "numbers"), **dict.fromkeys(integers, "cells")}
+        ends = self.lanes if prefix == "" else 0
+        return [
+            *lines,
+            *(
+                f"{name} = {prefix}{of[name]}[{k * self.lanes}:{k * self.lanes + ends if ends else ''}]"
+                for k, name in enumerate(every)
+            ),
+        ]
 
     def lane_loop(self, lines: Iterable[str]) -> list[str]:
         """Lines done for every lane."""
         return [f"for lane in range({self.lanes}):", *indented(lines, 1)]
 
+    def robot_loop(self, before: Iterable[str], loops: Iterable[Iterable[str]]) -> list[str]:
+        """Lines done once for every robot, and then bodies of loops over its lanes."""
+        inner = ["own = robot * stride", *before, *(line for body in loops for line in self.lane_loop(body))]
+        return [f"for robot in range({self.team}):", *indented(inner, 1)]
+
     def emitter(self, step: str, *, hinted: bool = True) -> Emitter:
         """An emitter with fresh blocks for a step and a lane."""
-        blocks = {Level.CALL: self.call, Level.STEP: Block(Level.STEP), Level.LANE: Block(Level.LANE)}
-        return Emitter(
-            self.namer, self._leaf, "key[lane]", step, self._hints if hinted else {}, blocks, self.used
-        )
+        blocks = Blocks(self.call, self.looped)
+        hints = self._hints if hinted else {}
+        return Emitter(self.namer, Loops(self), self._leaf, "key[lane]", step, hints, blocks, self.used)
+
+    def slot_of(self, node: Node) -> str:
+        """The array of a slot that is read."""
+        return self.slots[cast("Slot", node.data)]
 
     @cached_property
     def slots(self) -> dict[Slot, str]:
         """The arrays of the slots that a later step reads."""
-        read = {node.data for node in needed(self.outputs) if node.operation == "slot"}
+        read = {node.data: node.level for node in needed(self.outputs) if node.operation == "slot"}
         return {
-            slot: (self.keep_integer if node.kind is Kind.CELL else self.keep)(slot_text(slot, self.robots))
+            slot: self.keep(slot_text(slot, self.robots), node.kind, read[slot])
             for slot, node in self.episode.after.items()
             if slot in read
         }
@@ -175,14 +240,12 @@ class Frame:
     def _leaf(self, node: Node) -> str:
         match node.operation:
             case "slot":
-                kept = f"{self.slots[cast('Slot', node.data)]}[lane]"
+                kept = self.at(self.slot_of(node))
                 return f"({kept} != 0.0)" if node.kind is Kind.TRUTH else kept
             case "step":
                 return "float(step)"
             case "start":
                 return "float(key[lane])"
-            case "choice":
-                return self.actions[cast("int", node.data)]
         return self._constant(node)
 
     def _constant(self, node: Node) -> str:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.behaviors import Module
+    from bbsd.spec.meaning.episode import Episode
     from bbsd.spec.meaning.names import Slot
 
 Renamed = dict[int, Node]
@@ -24,8 +25,8 @@ Renamed = dict[int, Node]
 
 def merged(meaning: Meaning) -> Meaning:
     """The same meaning, every group of equal slots read from its first one."""
-    episode = meaning.episode
-    groups = _groups(meaning)
+    episode, graph = meaning.episode, replace(meaning.graph, bounded=False)
+    groups = _groups(episode, graph)
     if all(slot == first for slot, first in groups.items()):
         return meaning
     every = [*episode.after.values(), *episode.acted.values(), *episode.definitions.values()]
@@ -33,7 +34,7 @@ def merged(meaning: Meaning) -> Meaning:
     every += [node for nodes in episode.reward.values() for node in nodes]
     every += [episode.ends] if episode.ends is not None else []
     every += [node for nodes in episode.expects.values() for node in nodes]
-    found = _read_from(groups, every, meaning.graph)
+    found = _read_from(groups, every, graph)
     changed = replace(
         episode,
         modules=tuple(_renamed(module, found) for module in episode.modules),
@@ -49,15 +50,14 @@ def merged(meaning: Meaning) -> Meaning:
     return replace(meaning, episode=changed)
 
 
-def _groups(meaning: Meaning) -> dict[Slot, Slot]:
+def _groups(episode: Episode, graph: Graph) -> dict[Slot, Slot]:
     """For every slot, the first of the slots that always equal it."""
-    episode = meaning.episode
     keys: Mapping[Slot, tuple[object, ...]] = {
         slot: (node.number, node.kind) for slot, node in episode.start.items()
     }
     while True:
         groups = _first_of_each(keys)
-        found = _read_from(groups, episode.after.values(), meaning.graph)
+        found = _read_from(groups, episode.after.values(), graph)
         keys = {slot: (groups[slot], found[node.number].number) for slot, node in episode.after.items()}
         if _first_of_each(keys) == groups:
             return groups

@@ -84,7 +84,7 @@ class Problem:
     @property
     def places(self) -> list[Slot]:
         """Where a detailed outcome counts values that are not finite."""
-        return odd_slots(self.meaning)
+        return odd_slots(self.meaning.episode)
 
     @cached_property
     def _module(self) -> Any:  # noqa: ANN401 - a generated module

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.frame import Detail
@@ -14,7 +15,9 @@ if TYPE_CHECKING:
     from bbsd.compiler.deciding import Decision
     from bbsd.compiler.emission import Emitter
     from bbsd.compiler.frame import Frame
-    from bbsd.spec.meaning import Meaning
+    from bbsd.compiler.schedule import Closing
+    from bbsd.expression.graph import Node
+    from bbsd.spec.meaning.episode import Episode
     from bbsd.spec.meaning.names import Slot
 
 DETAILED = ("terms", "control", "taken", "odd", "held")
@@ -50,101 +53,133 @@ class Reckoning:
         return {
             "terms": [frame.keep(f"sum_{term}") for term in frame.episode.reward],
             "control": [frame.keep(f"steps_{name}") for name in self._who],
-            "odd": [frame.keep(f"odd_{slot_text(slot, frame.robots)}") for slot in odd_slots(frame.meaning)],
             "taken": [frame.keep("taken_")],
             "held": [frame.keep(f"held_{name}") for name in frame.episode.expects],
         }
 
-    def start(self) -> list[str]:
-        """All sums at 0."""
-        details = [name for names in self.details.values() for name in names]
-        return [f"{name}[lane] = 0.0" for name in (self.total, *self.credit, *details)]
+    @cached_property
+    def odd(self) -> dict[Slot, str]:
+        """The arrays that count the steps in which a slot's value was not finite."""
+        frame = self.frame
+        if frame.detail is Detail.CREDIT:
+            return {}
+        return {slot: self._count_of(slot) for slot in odd_slots(frame.episode)}
 
-    def add(self, emitter: Emitter) -> None:
+    def _count_of(self, slot: Slot) -> str:
+        wanted = f"odd_{slot_text(slot, self.frame.robots)}"
+        varies = self.frame.episode.after[slot].level in (Level.ROBOT, Level.EACH)
+        return self.frame.keep_own(wanted) if varies else self.frame.keep(wanted)
+
+    def start(self) -> list[list[str]]:
+        """All sums at 0: the team's, and each robot's."""
+        details = [name for names in self.details.values() for name in names]
+        names = [self.total, *self.credit, *details, *self.odd.values()]
+        return [
+            [f"{self.frame.at(name)} = 0.0" for name in names if self.frame.is_own(name) is own]
+            for own in (False, True)
+        ]
+
+    def add(self, emitter: Emitter, end: Closing) -> None:
         """Add a step's reinforcement: what each robot earned goes to what controlled it."""
-        lines, earned = emitter.blocks[Level.LANE].lines, self._earned_by_robot(emitter)
-        team = earned[0] if len(earned) == 1 else f"({' + '.join(earned)})"
-        lines.append(f"{self.total}[lane] = {self.total}[lane] + {team}")
+        lines, earned = end.each.lines, self._earned_by_robot(emitter, end)
+        end.team.lines.append(f"{self.total}[lane] = {self.total}[lane] + {self._team(earned, end)}")
         for index, name in enumerate(self.credit):
             for robot, each in enumerate(earned):
-                more = f"{name}[lane] + {each}"
-                kept = self.frame.call_of(
-                    "select", self.decision.controls(index, robot), more, f"{name}[lane]"
-                )
+                controls = self._controls(index, robot, emitter, end)
+                kept = self.frame.call_of("select", controls, f"{name}[lane] + {each}", f"{name}[lane]")
                 lines.append(f"{name}[lane] = {kept}")
 
-    def _earned_by_robot(self, emitter: Emitter) -> list[str]:
+    def _team(self, earned: list[str], end: Closing) -> str:
+        """What the team earned: its robots' sum, the first one's first."""
+        if self.frame.looped:
+            together = self.frame.keep("team_earned")
+            more = self.frame.call_of("select", "robot == 0", earned[0], f"{together}[lane] + {earned[0]}")
+            end.each.lines.append(f"{together}[lane] = {more}")
+            return f"{together}[lane]"
+        return earned[0] if len(earned) == 1 else f"({' + '.join(earned)})"
+
+    def _controls(self, index: int, robot: int, emitter: Emitter, end: Closing) -> str:
+        """Whether a behavior controls a robot, where a step is reckoned up."""
+        emitter.value(self.frame.episode.choices[robot], end.each)
+        return self.decision.controls(index, robot)
+
+    def _earned_by_robot(self, emitter: Emitter, end: Closing) -> list[str]:
         """The names of what the robots earned; the mean over robots is taken once, at the end of the episode."""
         frame = self.frame
         self.earned = {
-            (term, robot): emitter.named(nodes[robot], f"reward_{frame.robots_name(term, robot)}")
+            (term, robot): emitter.named(nodes[robot], f"reward_{frame.robots_name(term, robot)}", end.each)
             for robot in range(frame.robots)
             for term, nodes in frame.episode.reward.items()
         }
         names = [frame.namer(frame.robots_name("earned", robot)) for robot in range(frame.robots)]
         for robot, name in enumerate(names):
             earned = " + ".join(self.earned[term, robot] for term in frame.episode.reward)
-            emitter.blocks[Level.LANE].lines.append(f"{name} = {frame.while_running(earned)}")
+            end.each.lines.append(f"{name} = {frame.while_running(earned)}")
         return names
 
     def _per_robot(self, text: str) -> str:
-        robots = self.frame.robots
+        robots = self.frame.team
         return text if robots == 1 else self.frame.call_of("divide", text, str(float(robots)))
 
-    def _if_controls(self, index: int, robot: int, text: str) -> str:
-        return self.frame.call_of("select", self.decision.controls(index, robot), text, "0.0")
-
-    def add_details(self, emitter: Emitter) -> None:
+    def add_details(self, emitter: Emitter, end: Closing) -> None:
         """Add what an evaluation reports: terms, steps of control, steps taken, values that are not finite."""
-        frame, lines = self.frame, emitter.blocks[Level.LANE].lines
+        frame, lines = self.frame, end.each.lines
         robots, step = range(frame.robots), "1.0" if frame.running is None else f"{frame.running}[lane]"
         for term, name in zip(frame.episode.reward, self.details["terms"], strict=True):
             parts = [frame.while_running(self.earned[term, robot]) for robot in robots]
             lines.append(_added(name, parts))
         for index, name in enumerate(self.details["control"]):
-            lines.append(_added(name, [self._if_controls(index, robot, step) for robot in robots]))
-        for slot, name in zip(odd_slots(frame.meaning), self.details["odd"], strict=True):
-            finite = frame.call_of("is_finite", emitter.value(frame.episode.after[slot]))
-            lines.append(_added(name, [frame.call_of("select", finite, "0.0", step)]))
-        lines.append(_added(self.details["taken"][0], [step]))
-        names = [shape.name for shape in frame.shapes]
-        for (behavior, nodes), name in zip(frame.episode.expects.items(), self.details["held"], strict=True):
-            index, holds = names.index(behavior), [emitter.value(node) for node in nodes]
-            steps = [frame.call_of("select", text, step, "0.0") for text in holds]
-            lines.append(_added(name, [self._if_controls(index, robot, steps[robot]) for robot in robots]))
+            controls = [self._controls(index, robot, emitter, end) for robot in robots]
+            lines.append(_added(name, [self._if(each, step) for each in controls]))
+        for slot, name in self.odd.items():
+            node = frame.episode.after[slot]
+            finite = frame.call_of("is_finite", emitter.value(node, end.block_of(node)))
+            more = frame.call_of("select", finite, "0.0", step)
+            end.block_of(node).lines.append(f"{frame.at(name)} = {frame.at(name)} + {more}")
+        end.team.lines.append(_added(self.details["taken"][0], [step]))
+        for name, (index, nodes) in zip(self.details["held"], self._expected, strict=True):
+            held = [self._if(emitter.value(node, end.each), step) for node in nodes]
+            controls = [self._controls(index, robot, emitter, end) for robot in robots]
+            lines.append(_added(name, [self._if(each, text) for each, text in zip(controls, held, strict=True)]))
 
-    def record(self, emitter: Emitter) -> None:
+    @property
+    def _expected(self) -> list[tuple[int, tuple[Node, ...]]]:
+        """The behaviors that expect something, and what, robot by robot."""
+        names = [shape.name for shape in self.frame.shapes]
+        return [(names.index(behavior), nodes) for behavior, nodes in self.frame.episode.expects.items()]
+
+    def _if(self, condition: str, text: str) -> str:
+        return self.frame.call_of("select", condition, text, "0.0")
+
+    def record(self, emitter: Emitter, end: Closing) -> None:
         """Note everything of a step in its row of the record."""
         frame = self.frame
         columns = [
-            *(emitter.value(node) for node in frame.episode.after.values()),
-            *(emitter.value(node) for node in frame.traced_definitions.values()),
+            *(emitter.value(node, end.team) for node in frame.episode.after.values()),
+            *(emitter.value(node, end.team) for node in frame.traced_definitions.values()),
             *frame.actions,
-            *self._expectations(emitter),
+            *self._expectations(emitter, end),
             *(self.earned[term, robot] for term in frame.episode.reward for robot in range(frame.robots)),
         ]
-        lines = [f"record[step - 1, {column}] = {text}" for column, text in enumerate(columns)]
-        emitter.blocks[Level.LANE].lines += lines
+        end.team.lines += [f"record[step - 1, {column}] = {text}" for column, text in enumerate(columns)]
 
-    def _expectations(self, emitter: Emitter) -> list[str]:
+    def _expectations(self, emitter: Emitter, end: Closing) -> list[str]:
         """For each robot 2 where what the controlling one expects holds, 1 where not, 0 where it expects nothing."""
-        frame, names = self.frame, [shape.name for shape in self.frame.shapes]
-        if not frame.episode.expects:
+        if not self._expected:
             return []
         return [
             " + ".join(
-                self._if_controls(
-                    names.index(behavior),
-                    robot,
-                    frame.call_of("select", emitter.value(nodes[robot]), "2.0", "1.0"),
+                self._if(
+                    self.decision.controls(index, robot),
+                    self.frame.call_of("select", emitter.value(nodes[robot], end.team), "2.0", "1.0"),
                 )
-                for behavior, nodes in frame.episode.expects.items()
+                for index, nodes in self._expected
             )
-            for robot in range(frame.robots)
+            for robot in range(self.frame.robots)
         ]
 
     def finish(self) -> list[str]:
-        """Write the sums to where the caller reads them."""
+        """Loops that write the sums to where the caller reads them."""
         lines = [f"returns[base + lane] = {self._per_robot(f'{self.total}[lane]')}"]
         lines += [
             f"credit[{index}, base + lane] = {self._per_robot(f'{name}[lane]')}"
@@ -157,12 +192,36 @@ class Reckoning:
                 lines.append(
                     f"{argument}[{place}] = {self._per_robot(kept) if argument == 'terms' else kept}"
                 )
-        return lines
+        rows = self._odd_rows()
+        team = [f"odd[{row}, base + lane] = {name}[lane]" for name, row in rows if not self.frame.is_own(name)]
+        own = [f"odd[{row}, base + lane] = {self.frame.at(name)}" for name, row in rows if self.frame.is_own(name)]
+        return [
+            *self.frame.lane_loop([*lines, *team]),
+            *(self.frame.robot_loop([], [own]) if own else []),
+        ]
+
+    def _odd_rows(self) -> list[tuple[str, str]]:
+        """The arrays of odd values, each with its row among the places of an evaluation.
+
+        Without loops over robots they are in order. With them an array is for all robots, whose rows follow one another,
+        each robot's with those of all its elements.
+        """
+        frame, found, first = self.frame, list[tuple[str, str]](), 0
+        for _, group in groupby(self.odd.items(), lambda entry: entry[0][:2]):
+            arrays = list(group)
+            robots = frame.team if frame.looped and arrays[0][0][1] is not None else 1
+            for element, (_, name) in enumerate(arrays):
+                if frame.is_own(name):
+                    found.append((name, f"{first + element} + robot * {len(arrays)}"))
+                else:
+                    found += [(name, str(first + element + k * len(arrays))) for k in range(robots)]
+            first += robots * len(arrays)
+        return found
 
 
-def odd_slots(meaning: Meaning) -> list[Slot]:
+def odd_slots(episode: Episode) -> list[Slot]:
     """The places at which a detailed rollout counts values that are not finite."""
-    return [slot for slot, node in meaning.episode.after.items() if node.kind is Kind.NUMBER]
+    return [slot for slot, node in episode.after.items() if node.kind is Kind.NUMBER]
 
 
 def _added(name: str, parts: list[str]) -> str:

@@ -12,8 +12,10 @@ from bbsd.compiler.deciding import Decision
 from bbsd.compiler.frame import Detail, Frame, indented
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.reckoning import DETAILED, Reckoning
-from bbsd.compiler.splitting import loops
-from bbsd.expression.graph import Kind, Level, Node
+from bbsd.compiler.rolling import MOST_WRITTEN_OUT, rolled
+from bbsd.compiler.schedule import Closing, closing
+from bbsd.compiler.splitting import written
+from bbsd.expression.graph import Kind
 from bbsd.kernel import functions, streams
 from bbsd.version import __version__
 
@@ -32,12 +34,20 @@ ARGUMENTS = (
 
 
 def module_source(
-    meaning: Meaning, shapes: Sequence[TableShape], lanes: int, details: Sequence[Detail]
+    meaning: Meaning,
+    shapes: Sequence[TableShape],
+    lanes: int,
+    details: Sequence[Detail],
+    written_out: int = MOST_WRITTEN_OUT,
 ) -> str:
-    """The source of a module with a rollout for each detail asked for."""
-    texts, used = [], set()
+    """The source of a module with a rollout for each detail asked for.
+
+    More robots than are to be written out stand in loops; those of a trace never do.
+    """
+    texts, used, tables = [], set(), dict[str, str]()
+    short = rolled(meaning, written_out)
     for detail in details:
-        frame = Frame(meaning, shapes, lanes, detail)
+        frame = Frame(meaning if detail is Detail.TRACE else short, shapes, lanes, detail, tables)
         texts.append(f"\n{rollout_source(frame)}")
         used |= frame.used
     title = f'"""Episodes of {meaning.spec.name!r}, {lanes} at a time. Written by bbsd {__version__} from the spec."""'
@@ -46,7 +56,8 @@ def module_source(
         *_imports("bbsd.kernel.functions", sorted(used & vars(functions).keys())),
         *_imports("bbsd.kernel.streams", sorted(used & vars(streams).keys() - vars(functions).keys())),
     ]
-    return "\n\n".join([title, "\n".join(imports), *texts]) + "\n"
+    by_robot = ["\n".join(f"{name} = {text}" for text, name in tables.items())] if tables else []
+    return "\n\n".join([title, "\n".join(imports), *by_robot, *texts]) + "\n"
 
 
 def _imports(module: str, names: Sequence[str]) -> list[str]:
@@ -59,7 +70,7 @@ def rollout_source(frame: Frame) -> str:
     reckoning = Reckoning(frame, decision)
     start = _start(frame, decision, reckoning)
     step = _step(frame, decision, reckoning)
-    finish = frame.lane_loop(reckoning.finish())
+    finish = reckoning.finish()
     arguments = [*ARGUMENTS, *(DETAILED if frame.detail is not Detail.CREDIT else ())]
     arguments += ["record"] if frame.detail is Detail.TRACE else []
     return "\n".join(
@@ -81,66 +92,63 @@ def _start(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
     emitter = frame.emitter("0", hinted=False)
     wanted = {slot: frame.episode.start[slot] for slot in frame.slots}
     emitter.prepare(wanted.values())
-    stores = [_store(frame, slot, emitter.value(node), node) for slot, node in wanted.items()]
-    sums = [*reckoning.start(), *([] if frame.running is None else [f"{frame.running}[lane] = 1.0"])]
-    lane = [
-        "key[lane] = keys[base + lane]",
-        *decision.start(),
-        *emitter.blocks[Level.LANE].lines,
-        *stores,
-        *sums,
-    ]
-    return [*emitter.blocks[Level.STEP].lines, *frame.lane_loop(lane)]
+    first = emitter.blocks.stage(0)
+    first.lines += ["key[lane] = keys[base + lane]", *decision.start()]
+    end = closing(emitter, wanted.values())
+    blocks = {slot: end.block_at(array, frame) for slot, array in frame.slots.items()}
+    texts = {slot: emitter.value(node, blocks[slot]) for slot, node in wanted.items()}
+    for slot, text in texts.items():
+        blocks[slot].lines.append(frame.store(frame.slots[slot], text, wanted[slot].kind))
+    team, own = reckoning.start()
+    first.lines += [*team, *([] if frame.running is None else [f"{frame.running}[lane] = 1.0"])]
+    end.each.lines += own
+    return written(emitter.blocks, frame, split=frame.looped)
 
 
 def _step(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
     """A step of every lane, in the order of the language's definition."""
     emitter = frame.emitter("step")
-    emitter.prepare(frame.outputs)
-    lane = emitter.blocks[Level.LANE].lines
-    lane.append("# Decide: the highest layer that is excited and whose cell is not No Action controls.")
+    emitter.prepare([*frame.outputs, *frame.episode.choices], decision.stage)
+    deciding, end = emitter.blocks.stage(decision.stage), closing(emitter, frame.outputs)
+    deciding.lines.append(
+        "# Decide: the highest layer that is excited and whose cell is not No Action controls."
+    )
     for robot in range(frame.robots):
-        decision.decide(robot, emitter)
-    lane.append("# Act, then dynamics and sensors.")
-    after = _after(frame, emitter)
-    lane.append("# Reward: what each robot earned goes to what controlled it.")
-    reckoning.add(emitter)
+        decision.decide(robot, emitter, deciding)
+    deciding.lines.append("# Act, then dynamics and sensors.")
+    after = _after(frame, emitter, end)
+    end.each.lines.append("# Reward: what each robot earned goes to what controlled it.")
+    reckoning.add(emitter, end)
     if frame.detail is not Detail.CREDIT:
-        lane.append("# What an evaluation adds up.")
-        reckoning.add_details(emitter)
+        end.each.lines.append("# What an evaluation adds up.")
+        reckoning.add_details(emitter, end)
     if frame.detail is Detail.TRACE:
-        reckoning.record(emitter)
+        reckoning.record(emitter, end)
     if frame.episode.ends is not None:
-        ended = emitter.value(frame.episode.ends)
-        lane.append(
+        ended = emitter.value(frame.episode.ends, end.team)
+        end.team.lines.append(
             f"{frame.running}[lane] = {frame.call_of('select', ended, '0.0', f'{frame.running}[lane]')}"
         )
-    lane += [_store(frame, slot, text, frame.episode.after[slot]) for slot, text in after.items()]
-    looked_up = decision.look_up()
+    for slot, text in after.items():
+        line = frame.store(frame.slots[slot], text, frame.episode.after[slot].kind)
+        end.store_of(frame.slots[slot], frame).lines.append(line)
     all_over = [] if frame.running is None else [f"if {frame.running}.sum() == 0.0:", "    break"]
-    every = [line for part in loops(emitter.blocks[Level.LANE], frame) for line in frame.lane_loop(part)]
-    return [*emitter.blocks[Level.STEP].lines, *looked_up, *every, *all_over]
+    return [*decision.look_up(), *written(emitter.blocks, frame), *all_over]
 
 
-def _after(frame: Frame, emitter: Emitter) -> dict[Slot, str]:
+def _after(frame: Frame, emitter: Emitter, end: Closing) -> dict[Slot, str]:
     """What each slot that changes will hold, by names that stay true while slots are stored one after the other."""
     found = {}
-    for slot in frame.slots:
+    for slot, array in frame.slots.items():
         node, wanted = frame.episode.after[slot], f"next_{slot_text(slot, frame.robots)}"
         if node.operation == "slot" and node.data == slot:
             continue
-        found[slot] = emitter.named(node, wanted)
+        block = end.store_of(array, frame)
         if node.operation == "slot":
-            name = frame.namer(wanted)
-            emitter.blocks[Level.LANE].assign(name, found[slot], node.kind)
-            found[slot] = name
+            found[slot] = emitter.copied(node, wanted, end.block_of(node), block)
+        else:
+            found[slot] = emitter.named(node, wanted, block)
     return found
-
-
-def _store(frame: Frame, slot: Slot, text: str, node: Node) -> str:
-    """The line that keeps a value: truths as 0 and 1."""
-    kept = frame.call_of("select", text, "1.0", "0.0") if node.kind is Kind.TRUTH else text
-    return f"{frame.slots[slot]}[lane] = {kept}"
 
 
 def traced_columns(meaning: Meaning) -> list[tuple[str, Slot]]:

@@ -11,18 +11,39 @@ import re
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.emission import EXPENSIVE
-from bbsd.expression.graph import Kind
+from bbsd.expression.graph import Kind, Level
 
 if TYPE_CHECKING:
-    from bbsd.compiler.emission import Block
+    from collections.abc import Sequence
+
+    from bbsd.compiler.emission import Block, Blocks
     from bbsd.compiler.frame import Frame
 
 COSTLY = re.compile(rf"\b({'|'.join([*sorted(EXPENSIVE), 'normal'])})\(")
 DEFINED = re.compile(r"(\w+) = ")
 NAME = re.compile(r"\b[a-z_]\w*\b")
+SEEN = re.compile(r"\bseen_\d+\b")
+MOST_SEEN = 2
+"""Other robots whose values a loop reads: with more of them LLVM does not compare all ranges that might overlap."""
 ACT = "# Act"
 SHORTEST, LONGEST = 12, 60
 """Lines of a loop: fewer are not worth one, more are cut anywhere."""
+
+
+def written(
+    blocks: Blocks, frame: Frame, *, split: bool = True, apart: Sequence[str] = ()
+) -> list[str]:
+    """The lines of all stages' loops, in their order; those `apart` in one more loop over lanes behind the last one."""
+    lines = [*blocks.step.lines]
+    every = [(block, robot) for block, robot in blocks.every() if block.lines]
+    for block, robot in every:
+        bodies = loops(block, frame) if split else [block.lines]
+        bodies += [[*apart]] if apart and block is every[-1][0] else []
+        if block.level is Level.EACH:
+            lines += frame.robot_loop(robot.lines if robot else (), bodies)
+        else:
+            lines += [line for body in bodies for line in frame.lane_loop(body)]
+    return lines
 
 
 def loops(block: Block, frame: Frame) -> list[list[str]]:
@@ -43,7 +64,11 @@ def loops(block: Block, frame: Frame) -> list[list[str]]:
         [
             *(_load(name, kept[name], block) for name in kept if born[name] < place and name in used[place]),
             *part,
-            *(_store(name, kept[name], block, frame) for name in kept if born[name] == place),
+            *(
+                frame.store(kept[name], name, block.kinds.get(name, Kind.NUMBER))
+                for name in kept
+                if born[name] == place
+            ),
         ]
         for place, part in enumerate(parts)
     ]
@@ -51,24 +76,26 @@ def loops(block: Block, frame: Frame) -> list[list[str]]:
 
 def _cut(lines: list[str]) -> list[list[str]]:
     parts: list[list[str]] = [[]]
+    seen: set[str] = set()
     for line in lines:
         before = parts[-1][-1] if parts[-1] else ""
         expensive, was_expensive = bool(COSTLY.search(line)), bool(COSTLY.search(before))
         turns = line.startswith(ACT) or expensive != was_expensive
-        if len(parts[-1]) >= LONGEST or (turns and len(parts[-1]) >= (1 if was_expensive else SHORTEST)):
+        crowded = len({*seen, *SEEN.findall(line)}) > MOST_SEEN
+        if (
+            crowded
+            or len(parts[-1]) >= LONGEST
+            or (turns and len(parts[-1]) >= (1 if was_expensive else SHORTEST))
+        ):
             parts.append([])
+            seen.clear()
+        seen.update(SEEN.findall(line))
         parts[-1].append(line)
     return parts
 
 
 def _keep(name: str, block: Block, frame: Frame) -> str:
-    wanted = f"{name}_kept"
-    return frame.keep_integer(wanted) if block.kinds.get(name) is Kind.CELL else frame.keep(wanted)
-
-
-def _store(name: str, kept: str, block: Block, frame: Frame) -> str:
-    is_truth = block.kinds.get(name) is Kind.TRUTH
-    return f"{kept}[lane] = {frame.call_of('select', name, '1.0', '0.0') if is_truth else name}"
+    return frame.keep(f"{name}_kept", block.kinds.get(name, Kind.NUMBER))
 
 
 def _load(name: str, kept: str, block: Block) -> str:

@@ -33,11 +33,17 @@ class Kind(Enum):
 
 
 class Level(IntEnum):
-    """How often a value changes: each level is computed outside the loops of the next."""
+    """How often a value changes: each level is computed outside the loops of the next.
+
+    ROBOT and EACH are met only where a kernel loops over robots (`compiler.families`): ROBOT changes from robot to
+    robot but not from lane to lane, EACH does both.
+    """
 
     CALL = 0
     STEP = 1
     LANE = 2
+    ROBOT = 3
+    EACH = 4
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,38 +75,39 @@ class Graph:
     work: int = 0
     first: int = 0
     """What is added to the numbers of new nodes."""
+    bounded: bool = True
+    """Whether making nodes is work that a spec must pay for; what the compiler makes of a priced graph is not."""
 
     def number(self, value: float) -> Node:
         """A literal number. Zeros of both signs are different literals."""
-        return self._make("literal", (), (float(value), str(float(value))), Kind.NUMBER, Level.CALL)
+        return self.make("literal", (), (float(value), str(float(value))), Kind.NUMBER, Level.CALL)
 
     def truth(self, *, value: bool) -> Node:
         """A literal truth."""
-        return self._make("literal", (), (bool(value), "truth"), Kind.TRUTH, Level.CALL)
+        return self.make("literal", (), (bool(value), "truth"), Kind.TRUTH, Level.CALL)
 
     def cell(self, value: int) -> Node:
         """A literal cell index."""
-        return self._make("literal", (), (int(value), "cell"), Kind.CELL, Level.CALL)
+        return self.make("literal", (), (int(value), "cell"), Kind.CELL, Level.CALL)
 
     @property
     def unknown(self) -> Node:
         """The value of what could not be understood."""
-        return self._make("unknown", (), None, Kind.UNKNOWN, Level.CALL)
+        return self.make("unknown", (), None, Kind.UNKNOWN, Level.CALL)
 
     def leaf(self, operation: str, data: Hashable, kind: Kind, level: Level) -> Node:
         """A value that comes from outside the graph: a slot that is read, a constant, the step."""
-        return self._make(operation, (), data, kind, level)
+        return self.make(operation, (), data, kind, level)
 
     def draw(self, distribution: str, word: int, operands: tuple[Node, ...]) -> Node:
         """A draw; `word` names its place in the spec, robot and element, so no two are ever the same node."""
-        kind = Kind.TRUTH if distribution == "chance" else Kind.NUMBER
-        return self._make("draw", operands, (distribution, word), kind, Level.LANE)
+        return self.make("draw", operands, (distribution, word), kind_drawn(distribution), Level.LANE)
 
     def gather(
         self, base: int, strides: tuple[int, ...], lengths: tuple[int, ...], indices: tuple[Node, ...]
     ) -> Node:
         """An element of the constants at `base + sum(stride * index)`, each index clamped to its length."""
-        return self._make("gather", indices, (base, strides, lengths), Kind.NUMBER, _highest(indices))
+        return self.make("gather", indices, (base, strides, lengths), Kind.NUMBER, _highest(indices))
 
     def apply(self, operation: str, *operands: Node, data: Hashable = None) -> Node:
         """An operation on nodes; carried out now if all operands are literals."""
@@ -112,7 +119,7 @@ class Graph:
         kind = _kind_of(operation, operands)
         if all(node.literal for node in operands):
             return self._literal(compute(operation, [value_of(node) for node in operands], data), kind)
-        return self._make(operation, operands, data, kind, _highest(operands))
+        return self.make(operation, operands, data, kind, _highest(operands))
 
     def fold(self, operation: str, nodes: Iterable[Node]) -> Node:
         """The nodes joined from left to right by a binary operation."""
@@ -128,7 +135,7 @@ class Graph:
     def spend(self, work: int) -> None:
         """Count the work of making the graph; raises GraphTooLargeError where it is too much."""
         self.work += work
-        if self.work > MAX_WORK or len(self.nodes) >= MAX_NODES:
+        if self.bounded and (self.work > MAX_WORK or len(self.nodes) >= MAX_NODES):
             raise GraphTooLargeError
 
     def _simplified(self, operation: str, operands: tuple[Node, ...]) -> Node | None:
@@ -154,9 +161,10 @@ class Graph:
             case _:
                 return self.number(value)
 
-    def _make(
+    def make(
         self, operation: str, operands: tuple[Node, ...], data: Hashable, kind: Kind, level: Level
     ) -> Node:
+        """The one node of that meaning."""
         key = (operation, kind, data, *(node.number for node in operands))
         self.spend(1)
         if key not in self.nodes:
@@ -176,7 +184,13 @@ def value_of(node: Node) -> Any:  # noqa: ANN401 - a number, a truth or a cell i
 
 
 def _highest(nodes: tuple[Node, ...]) -> Level:
-    return max((node.level for node in nodes), default=Level.CALL)
+    levels = {node.level for node in nodes}
+    return Level.EACH if {Level.LANE, Level.ROBOT} <= levels else max(levels, default=Level.CALL)
+
+
+def kind_drawn(distribution: str) -> Kind:
+    """What a draw is: a truth for `chance`, a number for the others."""
+    return Kind.TRUTH if distribution == "chance" else Kind.NUMBER
 
 
 def _kind_of(operation: str, operands: tuple[Node, ...]) -> Kind:
