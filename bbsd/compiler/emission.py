@@ -241,10 +241,14 @@ class Emitter:
 
     def _draw(self, node: Node, into: Block) -> str:
         distribution, word = cast("tuple[str, int | tuple[int, ...]]", node.data)
-        varies = isinstance(word, tuple)
-        block = self.blocks.robot(into.stage) if varies else self.blocks.step
+        if isinstance(word, tuple):
+            block, named = (
+                self.blocks.robot(into.stage),
+                self.loops.tabled(hex(each | TOP_BIT) for each in word),
+            )
+        else:
+            block, named = self.blocks.step, hex(word | TOP_BIT)
         if node.number not in block.names:
-            named = self.loops.tabled(hex(each | TOP_BIT) for each in word) if varies else hex(word | TOP_BIT)
             stream = self.call("fold", [named, self.call("word_of", [self.step])])
             block.names[node.number] = self.namer.numbered("draw")
             block.lines.append(f"{block.names[node.number]} = {stream}")

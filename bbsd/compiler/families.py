@@ -157,7 +157,7 @@ class Families:
         """The family that a fold such as ((h0 + h1) + h2) goes through, if it may be one."""
         if node.operation not in FOLDS:
             return None
-        elements, rest = [], node
+        elements, rest = list[Node](), node
         while rest.operation == node.operation and len(elements) < self.robots - 1:
             rest, element = rest.operands
             elements.append(element)
@@ -282,4 +282,3 @@ def _same_but_for_place(one: Node, other: Node) -> bool:
 def table_values(node: Node) -> list[object]:
     """The values of a `table`."""
     return [values[0] for values in cast("tuple[tuple[object, ...], ...]", node.data)]
-

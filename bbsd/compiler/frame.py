@@ -120,31 +120,27 @@ class Frame:
 
         Few pieces, so that LLVM has few ranges to compare before it vectorizes a loop.
         """
-        team = self._piece("", self.lanes, ["key"], self.numbers, self.integers)
-        if not self.looped:
-            return team
-        stride = (len(self.own_numbers) + len(self.own_integers)) * self.lanes
-        own = self._piece("own_", stride * self.team, [], self.own_numbers, self.own_integers)
-        return [*team, f"stride = {stride}", *own]
-
-    def _piece(
-        self, prefix: str, reach: int, words: Sequence[str], numbers: Sequence[str], integers: Sequence[str]
-    ) -> list[str]:
-        """One piece of memory, seen as numbers, whole numbers and words; each array begins so many lanes further on."""
-        every = [*words, *numbers, *integers]
-        views = [("streams", "np.uint64", words), ("cells", "np.int64", integers)]
-        size = max(reach, len(every) * self.lanes)
-        lines = [f"{prefix}numbers = np.zeros({size}, np.float64)"]
-        lines += [f"{prefix}{view} = {prefix}numbers.view({kind})" for view, kind, names in views if names]
-        of = {**dict.fromkeys(words, "streams"), **dict.fromkeys(numbers, "numbers"), **dict.fromkeys(integers, "cells")}
-        ends = self.lanes if prefix == "" else 0
-        return [
-            *lines,
-            *(
-                f"{name} = {prefix}{of[name]}[{k * self.lanes}:{k * self.lanes + ends if ends else ''}]"
-                for k, name in enumerate(every)
-            ),
+        team = [("key", "streams"), *_kinds("", self.numbers, self.integers)]
+        lines = [
+            f"numbers = np.zeros({len(team) * self.lanes}, np.float64)",
+            "streams = numbers.view(np.uint64)",
+            *(["cells = numbers.view(np.int64)"] if self.integers else []),
+            *(f"{name} = {view}[{self._span(k)}]" for k, (name, view) in enumerate(team)),
         ]
+        return [*lines, *self._own_scratch()] if self.looped else lines
+
+    def _own_scratch(self) -> list[str]:
+        own = _kinds("own_", self.own_numbers, self.own_integers)
+        stride = len(own) * self.lanes
+        return [
+            f"stride = {stride}",
+            f"own_numbers = np.zeros({stride * self.team}, np.float64)",
+            *(["own_cells = own_numbers.view(np.int64)"] if self.own_integers else []),
+            *(f"{name} = {view}[{k * self.lanes}:]" for k, (name, view) in enumerate(own)),
+        ]
+
+    def _span(self, place: int) -> str:
+        return f"{place * self.lanes}:{(place + 1) * self.lanes}"
 
     def lane_loop(self, lines: Iterable[str]) -> list[str]:
         """Lines done for every lane."""
@@ -262,6 +258,14 @@ class Frame:
             for name, value in self.meaning.constants.values.items()
             for place in _places(value)
         ]
+
+
+def _kinds(prefix: str, numbers: Iterable[str], integers: Iterable[str]) -> list[tuple[str, str]]:
+    """Arrays, each with the view of the memory that it is a part of."""
+    return [
+        *((name, f"{prefix}numbers") for name in numbers),
+        *((name, f"{prefix}cells") for name in integers),
+    ]
 
 
 def indented(lines: Iterable[str], depth: int) -> list[str]:

@@ -140,7 +140,9 @@ class Reckoning:
         for name, (index, nodes) in zip(self.details["held"], self._expected, strict=True):
             held = [self._if(emitter.value(node, end.each), step) for node in nodes]
             controls = [self._controls(index, robot, emitter, end) for robot in robots]
-            lines.append(_added(name, [self._if(each, text) for each, text in zip(controls, held, strict=True)]))
+            lines.append(
+                _added(name, [self._if(each, text) for each, text in zip(controls, held, strict=True)])
+            )
 
     @property
     def _expected(self) -> list[tuple[int, tuple[Node, ...]]]:
@@ -193,8 +195,14 @@ class Reckoning:
                     f"{argument}[{place}] = {self._per_robot(kept) if argument == 'terms' else kept}"
                 )
         rows = self._odd_rows()
-        team = [f"odd[{row}, base + lane] = {name}[lane]" for name, row in rows if not self.frame.is_own(name)]
-        own = [f"odd[{row}, base + lane] = {self.frame.at(name)}" for name, row in rows if self.frame.is_own(name)]
+        team = [
+            f"odd[{row}, base + lane] = {name}[lane]" for name, row in rows if not self.frame.is_own(name)
+        ]
+        own = [
+            f"odd[{row}, base + lane] = {self.frame.at(name)}"
+            for name, row in rows
+            if self.frame.is_own(name)
+        ]
         return [
             *self.frame.lane_loop([*lines, *team]),
             *(self.frame.robot_loop([], [own]) if own else []),
@@ -203,8 +211,8 @@ class Reckoning:
     def _odd_rows(self) -> list[tuple[str, str]]:
         """The arrays of odd values, each with its row among the places of an evaluation.
 
-        Without loops over robots they are in order. With them an array is for all robots, whose rows follow one another,
-        each robot's with those of all its elements.
+        Without loops over robots they are in order. With them an array is for all robots, whose rows follow one
+        another, each robot's with those of all its elements.
         """
         frame, found, first = self.frame, list[tuple[str, str]](), 0
         for _, group in groupby(self.odd.items(), lambda entry: entry[0][:2]):

@@ -89,9 +89,7 @@ def _rolled(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
 
 def _met(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
     """Of values that only lend their names to others, those that others need."""
-    found = {
-        (name, 0, place): families.known(nodes) for (name, place), nodes in _by_place(slots).items()
-    }
+    found = {(name, 0, place): families.known(nodes) for (name, place), nodes in _by_place(slots).items()}
     return {slot: node for slot, node in found.items() if node is not None}
 
 

@@ -30,9 +30,7 @@ SHORTEST, LONGEST = 12, 60
 """Lines of a loop: fewer are not worth one, more are cut anywhere."""
 
 
-def written(
-    blocks: Blocks, frame: Frame, *, split: bool = True, apart: Sequence[str] = ()
-) -> list[str]:
+def written(blocks: Blocks, frame: Frame, *, split: bool = True, apart: Sequence[str] = ()) -> list[str]:
     """The lines of all stages' loops, in their order; those `apart` in one more loop over lanes behind the last one."""
     lines = [*blocks.step.lines]
     every = [(block, robot) for block, robot in blocks.every() if block.lines]
