@@ -23,6 +23,8 @@ from bbsd.kernel.primitives import (
     divide,
     float_of,
     floor,
+    maximum,
+    minimum,
     round_half_even,
     select,
     sqrt,
@@ -63,16 +65,6 @@ __all__ = [
     "tanh",
     "whole_power",
 ]
-
-
-def minimum(a: float, b: float) -> float:
-    """The smaller one; a where they do not compare."""
-    return select(b < a, b, a)
-
-
-def maximum(a: float, b: float) -> float:
-    """The greater one; a where they do not compare."""
-    return select(b > a, b, a)
 
 
 def is_finite(x: float) -> bool:
@@ -283,8 +275,6 @@ def power(x: float, y: float) -> float:
 
 
 COMPILABLE = (
-    minimum,
-    maximum,
     clamp_index,
     is_finite,
     sign,

@@ -35,7 +35,7 @@ with _config_file_unseen():
     import numba
     from numba.core import config
     from numba.core.dispatcher import Dispatcher
-    from numba.extending import overload, register_jitable
+    from numba.extending import register_jitable
 
     from bbsd.kernel import intrinsics
 
@@ -46,15 +46,18 @@ SETTINGS["reload_config"]()
 
 OPTIONS: Any = {"error_model": "numpy", "nogil": True}
 # A function that is called and not inlined would keep a loop over lanes scalar.
-LIBRARY_OPTIONS: Any = {"error_model": "numpy", "forceinline": True}
+# Nor is it called from outside, so it needs no wrappers.
+LIBRARY_OPTIONS: Any = {
+    "error_model": "numpy",
+    "forceinline": True,
+    "no_cfunc_wrapper": True,
+    "no_cpython_wrapper": True,
+}
 
 
 def _register() -> None:
     """Makes the library's functions callable in compiled code."""
-    for primitive, compiled in intrinsics.COMPILED:
-        overload(primitive, jit_options=LIBRARY_OPTIONS, strict=False)(
-            lambda *_types, _compiled=compiled: _compiled
-        )
+    intrinsics.register()
     for function in functions.COMPILABLE + streams.COMPILABLE:
         register_jitable(**LIBRARY_OPTIONS)(function)
 

@@ -31,6 +31,16 @@ def select(condition: bool, then: Value, otherwise: Value) -> Value:
     return then if condition else otherwise
 
 
+def minimum(a: Value, b: Value) -> Value:
+    """The smaller one; a where they do not compare."""
+    return b if b < a else a
+
+
+def maximum(a: Value, b: Value) -> Value:
+    """The greater one; a where they do not compare."""
+    return b if b > a else a
+
+
 def bits_of(x: float) -> int:
     """The 64 bits of a binary64 number as a signed whole number."""
     bits: int = _SIGNED.unpack(_FLOAT.pack(x))[0]
@@ -86,6 +96,8 @@ def ceil(x: float) -> float:
 
 PRIMITIVES = (
     select,
+    minimum,
+    maximum,
     bits_of,
     float_of,
     word_of,
