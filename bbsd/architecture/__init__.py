@@ -1,7 +1,7 @@
 """What was given or learned: an architecture, what it does in every situation, and how a spec says it."""
 
 from bbsd.architecture.architecture import Architecture, HolesLeft, given_architecture, holes
-from bbsd.architecture.policy import JointSpace, behavior_key, joint_space, policy
+from bbsd.architecture.policy import JointSpace, behavior_keys, joint_space, policy
 from bbsd.architecture.rules import rules_of
 from bbsd.architecture.tidy import tidied
 from bbsd.architecture.written import spec_changes
@@ -10,7 +10,7 @@ __all__ = [
     "Architecture",
     "HolesLeft",
     "JointSpace",
-    "behavior_key",
+    "behavior_keys",
     "given_architecture",
     "holes",
     "joint_space",

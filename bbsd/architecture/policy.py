@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from bbsd.spec.meaning.behaviors import Module
 
 MAX_JOINT_CELLS = 200_000
+MOST_AT_ONCE = 2_000_000
+"""Joint cells of all architectures whose policies are held at once."""
 
 EXCITEMENT = ("not excited", "excited")
 
@@ -155,14 +157,22 @@ def policy(space: JointSpace, architecture: Architecture) -> NDArray[np.uint16]:
 
     The space should be small (`is_small`): the result has its size.
     """
-    control = np.zeros(space.sizes, np.uint16)
-    for (
-        behavior
-    ) in architecture.structure.tolist():  # from the lowest layer up, so that the highest has its way
-        decided = decisions(space, behavior, architecture.tables[behavior])
-        numbers = (decided + np.uint16(space.first_actions[behavior])).astype(np.uint16)
-        control = np.where(decided > 0, numbers, control)
-    return control.ravel()
+    (found,) = policies(space, [architecture])
+    return found
+
+
+def policies(space: JointSpace, architectures: Sequence[Architecture]) -> NDArray[np.uint16]:
+    """The policies of several architectures with equally many layers, (n_architectures, n_joint)."""
+    control = np.zeros((len(architectures), *space.sizes), np.uint16)
+    for layer in np.stack([each.structure for each in architectures]).T:
+        # From the lowest layer up, so that the highest has its way.
+        for behavior in np.unique(layer).tolist():
+            which = np.flatnonzero(layer == behavior).tolist()
+            tables = np.stack([architectures[index].tables[behavior] for index in which])
+            decided = decisions(space, behavior, tables)
+            numbers = (decided + np.uint16(space.first_actions[behavior])).astype(np.uint16)
+            control[which] = np.where(decided > 0, numbers, control[which])
+    return control.reshape(len(architectures), -1)
 
 
 def controlling(space: JointSpace, architecture: Architecture) -> NDArray[np.int64]:
@@ -170,13 +180,16 @@ def controlling(space: JointSpace, architecture: Architecture) -> NDArray[np.int
     return np.searchsorted(space.first_actions, policy(space, architecture), side="left") - 1
 
 
-def decisions(space: JointSpace, behavior: int, table: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """A behavior's action in the joint space, 0 where it has none or is not excited; it broadcasts to `sizes`."""
+def decisions(space: JointSpace, behavior: int, tables: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A behavior's action in the joint space, 0 where it has none or is not excited.
+
+    Tables (..., n_cells); what comes back broadcasts to (..., *sizes).
+    """
     view, mesh = space.views[behavior], np.ogrid[tuple(slice(size) for size in space.sizes)]
     is_excited = (
         mesh[view.excitement] == view.excited_at if view.excitement is not None else view.excited_at == 1
     )
-    return np.where(is_excited, table[own_cells(space, behavior)], np.uint8(0))
+    return np.where(is_excited, tables[..., own_cells(space, behavior)], np.uint8(0))
 
 
 def own_cells(space: JointSpace, behavior: int) -> NDArray[np.int64]:
@@ -188,15 +201,22 @@ def own_cells(space: JointSpace, behavior: int) -> NDArray[np.int64]:
     return cells
 
 
-def behavior_key(space: JointSpace, architecture: Architecture) -> bytes:
-    """A digest that is the same for architectures that set the same values in every joint cell.
+def behavior_keys(space: JointSpace, architectures: Sequence[Architecture]) -> list[bytes]:
+    """A digest of each, the same for architectures that set the same values in every joint cell.
 
     In a space that is not small, where structure and the tables of its behaviors are the same.
     """
-    if space.is_small:
-        return _digest(space.effects[policy(space, architecture)])
-    reachable = [architecture.tables[behavior] for behavior in architecture.structure.tolist()]
-    return _digest(architecture.structure, *reachable)
+    if not space.is_small:
+        return [
+            _digest(each.structure, *(each.tables[behavior] for behavior in each.structure.tolist()))
+            for each in architectures
+        ]
+    at_once = max(1, MOST_AT_ONCE // prod(space.sizes))
+    return [
+        _digest(effects)
+        for first in range(0, len(architectures), at_once)
+        for effects in space.effects[policies(space, architectures[first : first + at_once])]
+    ]
 
 
 def _digest(*arrays: NDArray[np.generic]) -> bytes:

@@ -28,6 +28,8 @@ __all__ = [
     "chance",
     "fold",
     "integers",
+    "mark",
+    "marked",
     "mix64",
     "name_word",
     "normal",
@@ -54,9 +56,19 @@ def mix64(word: int) -> int:
     return word ^ (word >> 31)
 
 
+def mark(word: int) -> int:
+    """What `word` adds to a key; a loop that folds one word into many keys needs it once."""
+    return mix64((word + GOLDEN) & MASK)
+
+
+def marked(key: int, mark: int) -> int:
+    """The key of the stream within the stream of `key` whose word has that mark."""
+    return mix64(key ^ mark)
+
+
 def fold(key: int, word: int) -> int:
     """The key of the stream called `word` within the stream of `key`."""
-    return mix64(key ^ mix64((word + GOLDEN) & MASK))
+    return marked(key, mark(word))
 
 
 def unit(bits: int) -> float:
@@ -92,4 +104,4 @@ DISTRIBUTIONS: Mapping[str, Callable[..., float]] = MappingProxyType(
 )
 """What the language draws, by its name there: functions of (key, word, *parameters)."""
 
-COMPILABLE = (mix64, fold, unit, uniform, integers, chance, normal)
+COMPILABLE = (mix64, mark, marked, fold, unit, uniform, integers, chance, normal)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.architecture import Architecture, behavior_key, joint_space
+from bbsd.architecture import Architecture, behavior_keys, joint_space
 from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.race import race
 
@@ -42,7 +42,7 @@ def candidates(state: State, problem: Problem, settings: Settings) -> list[Archi
 def different(architectures: Iterable[Architecture], problem: Problem) -> list[Architecture]:
     """Each different behavior once, by what controls in every cell of the joint input space."""
     found: dict[bytes, Architecture] = {}
-    space = joint_space(problem.meaning)
-    for architecture in architectures:
-        found.setdefault(behavior_key(space, architecture), architecture)
+    every = list(architectures)
+    for key, architecture in zip(behavior_keys(joint_space(problem.meaning), every), every, strict=True):
+        found.setdefault(key, architecture)
     return list(found.values())

@@ -35,12 +35,8 @@ class Champions:
         tables = np.concatenate([self.tables, np.concatenate(own, axis=1)])
         structures = np.concatenate([self.structures, agents.structures])
         values = np.concatenate([self.fitness, fitness])
-        best: dict[bytes, int] = {}
-        for place in np.argsort(-values, kind="stable"):
-            if len(best) == self.capacity:
-                break
-            best.setdefault(tables[place].tobytes() + structures[place].tobytes(), int(place))
-        kept = list(best.values())
+        order = np.argsort(-values, kind="stable")
+        kept = order[_first_of_each(tables[order], structures[order])][: self.capacity]
         return Champions(tables[kept], structures[kept], values[kept], self.capacity)
 
     def architectures(self, problem: Problem) -> list[Architecture]:
@@ -50,6 +46,13 @@ class Champions:
             Architecture(tuple(np.split(tables, ends)), structure)
             for tables, structure in zip(self.tables, self.structures, strict=True)
         ]
+
+
+def _first_of_each(tables: NDArray[np.uint8], structures: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The places of the first of all that have the same tables and structure, in ascending order."""
+    rows = np.hstack([tables, np.ascontiguousarray(structures).view(np.uint8)])
+    _, first = np.unique(rows.view(f"V{rows.shape[1]}").ravel(), return_index=True)
+    return np.sort(first)
 
 
 def no_champions(problem: Problem, capacity: int) -> Champions:

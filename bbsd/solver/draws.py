@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.kernel.jit import jit
-from bbsd.kernel.streams import fold, word_of
+from bbsd.kernel.streams import mark, marked, word_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,14 +20,24 @@ def below(bits: int, n: int) -> int:
 
 
 @jit
-def shuffle(key: int, cards: NDArray[np.int64], n_dealt: int) -> None:
+def marks(count: int) -> NDArray[np.uint64]:
+    """The marks of the words 0, 1, ..., (count,): many streams have parts of these names."""
+    found = np.empty(count, np.uint64)
+    for word in range(count):
+        found[word] = mark(word_of(word))
+    return found
+
+
+@jit
+def shuffle(key: int, cards: NDArray[np.int64], n_dealt: int, places: NDArray[np.uint64]) -> None:
     """Deal a uniformly random ordered selection of the cards to their front, in place (Fisher and Yates).
 
     Args:
         key: a word; uint64 in compiled code.
         cards: (n_cards,), changed.
         n_dealt: how many to deal, at most n_cards.
+        places: `marks` of at least as many.
     """
     for place in range(n_dealt):
-        other = place + below(fold(int(key), word_of(place)), len(cards) - place)
+        other = place + below(marked(int(key), int(places[place])), len(cards) - place)
         cards[place], cards[other] = cards[other], cards[place]

@@ -53,14 +53,13 @@ def live(
     values = np.zeros((len(agents), structures.shape[1], problem.n_behaviors))
     counters = no_counters(*values.shape) if learning.estimate == "counters" else None
     returns = np.empty((len(agents), learning.lifetime))
+    episodes, searches, explorations = (folded(keys, purpose) for purpose in (EPISODE, SEARCH, EXPLORE))
     for episode in range(1, learning.lifetime + 1):
         heed()
         if learning.learned and episode > 1:
-            structures = choose(problem, folded(folded(keys, SEARCH), episode), values, structures, learning)
-            structures = explore(
-                problem, folded(folded(keys, EXPLORE), episode), structures, learning, episode
-            )
-        streams = folded(folded(keys, EPISODE), episode)
+            structures = choose(problem, folded(searches, episode), values, structures, learning)
+            structures = explore(problem, explorations, structures, learning, episode)
+        streams = folded(episodes, episode)
         outcome = (
             team.episode(streams, structures)
             if counters is None
@@ -98,10 +97,14 @@ def explore(
     learning: Learning,
     episode: int,
 ) -> NDArray[np.int64]:
-    """A random structure for some agents, with the probability of the episode, never in the last K episodes."""
+    """A random structure for some agents, with the probability of the episode, never in the last K episodes.
+
+    The keys (n_agents,) are those of the agents' explorations in all episodes.
+    """
     probability = float(learning.exploration[episode - 1])
     if probability == 0.0 or episode > learning.lifetime - learning.last:
         return structures
-    explores = units(folded(keys, WHETHER)) < probability
-    random = random_structures(keys, problem.layers, problem.candidates)
+    streams = folded(keys, episode)
+    explores = units(folded(streams, WHETHER)) < probability
+    random = random_structures(streams, problem.layers, problem.candidates)
     return np.where(explores[:, None], random, structures)

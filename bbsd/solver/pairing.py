@@ -10,7 +10,7 @@ from bbsd.kernel.jit import jit
 from bbsd.kernel.keys import keys, units
 from bbsd.kernel.streams import fold, word_of
 from bbsd.solver.culture import wheel
-from bbsd.solver.draws import shuffle
+from bbsd.solver.draws import marks, shuffle
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -66,9 +66,9 @@ def balanced(key: int, population: int, n_agents: int) -> NDArray[np.int64]:
 @jit
 def deal_decks(key: np.uint64, population: int, drawn: NDArray[np.int64]) -> None:
     """Deal shuffled decks of all individuals until every agent has one; the last deck may not be used up."""
-    deck = np.arange(population)
+    deck, places = np.arange(population), marks(population)
     for start in range(0, len(drawn), population):
         n_dealt = min(population, len(drawn) - start)
-        shuffle(fold(int(key), word_of(start)), deck, n_dealt)
+        shuffle(fold(int(key), word_of(start)), deck, n_dealt, places)
         for card in range(n_dealt):
             drawn[start + card] = deck[card]

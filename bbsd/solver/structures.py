@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.kernel.jit import jit
-from bbsd.kernel.streams import fold, word_of
+from bbsd.kernel.streams import marked
 from bbsd.solver.assignment import assign
-from bbsd.solver.draws import shuffle
+from bbsd.solver.draws import marks, shuffle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -93,13 +93,13 @@ def random_structures(
     """
     holes = open_layers(layers)
     structures = np.empty((len(keys), len(layers)), np.int64)
-    hand = np.empty_like(candidates)
+    hand, places = np.empty_like(candidates), marks(len(holes))
     for agent in range(len(keys)):
         for layer in range(len(layers)):
             structures[agent, layer] = layers[layer]
         for card in range(len(candidates)):
             hand[card] = candidates[card]
-        shuffle(int(keys[agent]), hand, len(holes))
+        shuffle(int(keys[agent]), hand, len(holes), places)
         lay_down(hand, structures, agent, holes)
     return structures
 
@@ -132,13 +132,14 @@ def search_sampled(
     chosen = structures.copy()
     present = np.empty_like(holes)
     hand = np.empty_like(candidates)
+    places, samples = marks(len(holes)), marks(n_random)
     for agent in range(len(keys)):
         pick_up(present, structures, agent, holes)
         best = value_of(present, values, agent, holes)
         for card in range(len(candidates)):
             hand[card] = candidates[card]
         for sample in range(n_random):
-            shuffle(fold(int(keys[agent]), word_of(sample)), hand, len(holes))
+            shuffle(marked(int(keys[agent]), int(samples[sample])), hand, len(holes), places)
             value = value_of(hand, values, agent, holes)
             if value > best:
                 best = value

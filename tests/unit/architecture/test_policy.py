@@ -3,9 +3,13 @@ from itertools import product
 import numpy as np
 import pytest
 
-from bbsd.architecture import Architecture, behavior_key, joint_space, policy
+from bbsd.architecture import Architecture, behavior_keys, joint_space, policy
 from bbsd.architecture.policy import EXCITEMENT, MAX_JOINT_CELLS, controlling
 from tests.unit.architecture.designs import SHIPPED, meaning_of, random_architecture, shipped, small
+
+
+def behavior_key(space, architecture):
+    return behavior_keys(space, [architecture])[0]
 
 
 def architecture(tables, structure):

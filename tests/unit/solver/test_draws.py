@@ -6,14 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bbsd.kernel.streams import fold
-from bbsd.solver.draws import below, shuffle
+from bbsd.solver.draws import below, marks, shuffle
 
 WORDS = st.integers(0, 2**64 - 1)
 
 
 def dealt(key, n_cards, n_dealt):
     cards = np.arange(n_cards)
-    shuffle(np.uint64(key), cards, n_dealt)
+    shuffle(np.uint64(key), cards, n_dealt, marks(n_dealt))
     return cards
 
 
