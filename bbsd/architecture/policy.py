@@ -157,7 +157,7 @@ def policy(space: JointSpace, architecture: Architecture) -> NDArray[np.uint16]:
 
     The space should be small (`is_small`): the result has its size.
     """
-    (found,) = policies(space, [architecture])
+    found: NDArray[np.uint16] = policies(space, [architecture])[0]
     return found
 
 
