@@ -1,5 +1,6 @@
 """The commands, and what becomes of the errors that a user can mend."""
 
+import gc
 import sys
 from typing import Annotated
 
@@ -18,6 +19,9 @@ from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
 from bbsd.version import __version__
+
+SELDOM = 100_000
+"""Objects made between two collections: nearly all that a command makes lives as long as it does, or dies at once."""
 
 app = typer.Typer(
     name="bbsd",
@@ -56,6 +60,7 @@ def _options(
 
 def main() -> None:
     """Run the command line; leave with 0, 1 for a "no", 2 for a mistake of the user's, 130 if interrupted."""
+    gc.set_threshold(SELDOM)
     try:
         never_fail_to_encode(sys.stdout, sys.stderr)
         app(prog_name="bbsd")

@@ -44,7 +44,7 @@ SETTINGS = vars(config)
 SETTINGS["_config_fname"] = os.devnull
 SETTINGS["reload_config"]()
 
-OPTIONS: Any = {"error_model": "numpy", "nogil": True}
+OPTIONS: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 # A function that is called and not inlined would keep a loop over lanes scalar.
 # Nor is it called from outside, so it needs no wrappers.
 LIBRARY_OPTIONS: Any = {
