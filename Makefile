@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 .PHONY: demo test lint unit claims worlds figures bench clean
 
 demo: $(VENV)/.demo
-	$(BIN)/bbsd design specs/object_lifting.yaml
+	$(BIN)/bbsd design specs/object_lifting.yaml --plot
 
 test: lint unit
 
@@ -28,7 +28,7 @@ worlds: $(VENV)/.demo
 
 # The pictures of episodes in README.md and docs/cookbook.md.
 figures: $(VENV)/.demo
-	$(BIN)/bbsd design specs/object_lifting.yaml --quiet --out .cache/figures
+	$(BIN)/bbsd design specs/object_lifting.yaml --quiet --plot --out .cache/figures
 	$(BIN)/bbsd evaluate .cache/figures/architecture.yaml --plot docs/images/lifting.png
 	cp .cache/figures/curves.png docs/images/curves.png
 	rm -r .cache/figures

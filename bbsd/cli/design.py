@@ -3,7 +3,6 @@
 import shlex
 import sys
 import time
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +10,7 @@ import typer
 
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
-from bbsd.report.figures import curves
+from bbsd.report.figures import curves, require_figure
 from bbsd.report.plain import design_plain, json_text
 
 if TYPE_CHECKING:
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from bbsd.solver.price import Price
 
 INTERRUPTED = 130
+CURVES = "curves.png"
 DRAWING = 0.5
 """Seconds in which matplotlib is imported and draws the curves, about."""
 
@@ -44,6 +44,9 @@ def design(
         ),
     ] = 1,
     overrides: Overrides = None,
+    plot: Annotated[
+        bool, typer.Option("--plot", help="Also draw the curves over the generations: curves.png.")
+    ] = False,
     as_json: AsJson = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only say what the design would cost; write nothing.")
@@ -58,6 +61,8 @@ def design(
     from bbsd import api
     from bbsd.report.progress import progress
 
+    if plot:
+        require_figure(Path(CURVES))
     if dry_run:
         _show_price(
             api.price(
@@ -66,7 +71,7 @@ def design(
                 runs=runs,
                 lanes=lanes,
                 jobs=jobs,
-                starting=time.process_time() + (DRAWING if find_spec("matplotlib") else 0.0),
+                starting=time.process_time() + (DRAWING if plot else 0.0),
                 overrides=overrides or (),
             ),
             as_json=as_json,
@@ -97,8 +102,9 @@ def design(
     except api.Interrupted as stopped:
         _say_how_to_go_on(stopped.folder)
         raise typer.Exit(INTERRUPTED) from None
-    _draw_curves(designed)
     _show(designed, seed, runs, as_json=as_json)
+    if plot:
+        _draw_curves(designed)
 
 
 def _show_price(price: "Price", *, as_json: bool) -> None:
@@ -119,12 +125,10 @@ def _resuming(folder: Path) -> str:
 
 
 def _draw_curves(designed: "Designed") -> None:
-    """Draw the metrics beside them, where matplotlib is installed."""
+    """Draw the metrics beside them. The answer was told before: matplotlib takes longer than a small design."""
     from bbsd.solver.folder import Folder
 
-    if find_spec("matplotlib") is not None:
-        folder = Folder(designed.folder)
-        curves(folder.lines(), folder.figure)
+    curves(Folder(designed.folder).lines(), designed.folder / CURVES)
 
 
 def _show(designed: "Designed", seed: int, runs: int, *, as_json: bool) -> None:

@@ -61,11 +61,6 @@ class Folder:
         return self.path / "metrics.jsonl"
 
     @property
-    def figure(self) -> Path:
-        """The curves over the generations."""
-        return self.path / "curves.png"
-
-    @property
     def note(self) -> Path:
         """What was run, with what, and what came of it."""
         return self.path / "run.json"

@@ -56,7 +56,7 @@ def process(*words, cwd="."):
 def designed(tmp_path_factory):
     """A folder that `bbsd design` wrote, and what it said."""
     folder = tmp_path_factory.mktemp("designed")
-    return folder, bbsd("design", SPEC, "--out", folder)
+    return folder, bbsd("design", SPEC, "--plot", "--out", folder)
 
 
 def keys(text):
@@ -193,7 +193,7 @@ def test_a_design_is_a_folder_with_a_table_for_its_reader(designed):
 
 
 def test_a_design_is_the_same_in_another_process(designed, tmp_path):
-    with process("design", SPEC, "--out", tmp_path / "again", "--json", "--quiet") as running:
+    with process("design", SPEC, "--plot", "--out", tmp_path / "again", "--json", "--quiet") as running:
         out, err = running.communicate()
     assert (running.returncode, err) == (0, "")
     result = json.loads(out)
@@ -202,6 +202,16 @@ def test_a_design_is_the_same_in_another_process(designed, tmp_path):
     ]
     for name in ("architecture.yaml", "metrics.jsonl", "curves.png"):
         assert (tmp_path / "again" / name).read_bytes() == (designed[0] / name).read_bytes()
+
+
+def test_curves_are_drawn_only_when_asked_for(designed, tmp_path):
+    folder = tmp_path / "run"
+    assert bbsd("design", SPEC, "--out", folder, "--quiet")[0] == 0
+    assert not (folder / "curves.png").exists()
+    code, out, _ = bbsd("design", SPEC, "--out", folder, "--quiet", "--resume", "--plot")
+    assert code == 0
+    assert "fitness" in out
+    assert (folder / "curves.png").read_bytes() == (designed[0] / "curves.png").read_bytes()
 
 
 def test_a_run_s_folder_is_not_overwritten(designed):
