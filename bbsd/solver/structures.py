@@ -15,7 +15,7 @@ import numpy as np
 from bbsd.kernel.jit import jit
 from bbsd.kernel.streams import marked
 from bbsd.solver.assignment import assign
-from bbsd.solver.draws import marks, shuffle
+from bbsd.solver.draws import below, marks, shuffle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -105,6 +105,33 @@ def random_structures(
 
 
 @jit
+def draw_swaps(
+    key: int,
+    samples: NDArray[np.uint64],
+    places: NDArray[np.uint64],
+    n_cards: int,
+    streams: NDArray[np.uint64],
+    swaps: NDArray[np.int64],
+) -> None:
+    """With what each place is swapped when `shuffle` deals to it, in all samples at once: such loops vectorize.
+
+    Args:
+        key: the agent's.
+        samples: `marks` of the samples, (n_random,).
+        places: `marks` of the places, (n_places,).
+        n_cards: how many there are to deal from.
+        streams: (n_random,), filled.
+        swaps: (n_places, n_random), filled.
+    """
+    for sample in range(len(samples)):
+        streams[sample] = marked(key, int(samples[sample]))
+    for place in range(len(places)):
+        mark = int(places[place])
+        for sample in range(len(samples)):
+            swaps[place, sample] = place + below(marked(int(streams[sample]), mark), n_cards - place)
+
+
+@jit
 def search_sampled(
     keys: NDArray[np.uint64],
     values: NDArray[np.float64],
@@ -133,13 +160,17 @@ def search_sampled(
     present = np.empty_like(holes)
     hand = np.empty_like(candidates)
     places, samples = marks(len(holes)), marks(n_random)
+    streams, swaps = np.empty(n_random, np.uint64), np.empty((len(holes), n_random), np.int64)
     for agent in range(len(keys)):
         pick_up(present, structures, agent, holes)
         best = value_of(present, values, agent, holes)
+        draw_swaps(int(keys[agent]), samples, places, len(candidates), streams, swaps)
         for card in range(len(candidates)):
             hand[card] = candidates[card]
         for sample in range(n_random):
-            shuffle(marked(int(keys[agent]), int(samples[sample])), hand, len(holes), places)
+            for place in range(len(holes)):
+                other = swaps[place, sample]
+                hand[place], hand[other] = hand[other], hand[place]
             value = value_of(hand, values, agent, holes)
             if value > best:
                 best = value
