@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 
 from bbsd.compiler.schedule import last, stages
 from bbsd.compiler.splitting import written
+from bbsd.compiler.texts import ATOM, COMPARISON, Text, grouped, infix
 from bbsd.expression.graph import Kind, Level
 
 if TYPE_CHECKING:
-    from bbsd.compiler.emission import Block, Emitter
+    from bbsd.compiler.blocks import Block
+    from bbsd.compiler.emission import Emitter
     from bbsd.compiler.frame import Frame
     from bbsd.expression.graph import Node
 
@@ -58,7 +60,7 @@ class Decision:
         emitter.prepare(cells)
         block, stores, looks = emitter.blocks.stage(self.stage), [], []
         for (index, robot), (cell, choice) in self._looked_up.items():
-            stores.append(f"{frame.at(cell)} = {self._cell(index, robot, emitter, block)}")
+            stores.append(f"{frame.at(cell)} = {self._cell(index, robot, emitter, block)[0]}")
             row = f"{self.kept[index][1]}[lane]"
             looks.append(f"{frame.at(choice)} = tables[{row} + {frame.at(cell)}]")
         block.lines += stores
@@ -82,8 +84,8 @@ class Decision:
         frame = self.frame
         return {
             (index, robot): (
-                frame.keep_own(frame.robots_name(f"cell_{shape.name}", robot), Kind.CELL),
-                frame.keep_own(frame.robots_name(f"choice_{shape.name}", robot), Kind.CELL),
+                frame.keep(frame.robots_name(f"cell_{shape.name}", robot), Kind.CELL, Level.EACH),
+                frame.keep(frame.robots_name(f"choice_{shape.name}", robot), Kind.CELL, Level.EACH),
             )
             for index, shape in enumerate(frame.shapes)
             for robot in range(frame.robots)
@@ -107,11 +109,12 @@ class Decision:
         looked = self._choice(index, robot, emitter, block)
         choice = frame.namer(frame.robots_name(f"choice_{module.name}", robot))
         block.assign(choice, looked, Kind.CELL)
-        excited = emitter.value(module.excited[robot], block)
-        active = f"{choice} > 0" if excited == "True" else f"({choice} > 0) & ({excited})"
+        active, excited = (f"{choice} > 0", COMPARISON), emitter.text(module.excited[robot], block)
+        if excited[0] != "True":
+            active = infix("&", active, excited)
         bid = frame.namer(frame.robots_name(f"bid_{module.name}", robot))
         offer = f"{self.kept[index][0]}[lane] + {choice}"
-        block.assign(bid, frame.call_of("select", active, offer, "0"), Kind.CELL)
+        block.assign(bid, frame.call_of("select", active[0], offer, "0"), Kind.CELL)
         return bid
 
     def _choice(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
@@ -120,18 +123,19 @@ class Decision:
         if not shape.packed:
             return self.frame.at(self._looked_up[index, robot][1])
         table, cell = self.kept[index][1], self._cell(index, robot, emitter, block)
-        if cell == "0":
+        if cell[0] == "0":
             return f"{table}[lane] & {shape.mask}"
-        shift = cell if shape.bits == 1 else f"{_grouped(cell)} * {shape.bits}"
-        return f"({table}[lane] >> {_grouped(shift)}) & {shape.mask}"
+        shift = cell if shape.bits == 1 else infix("*", cell, (str(shape.bits), ATOM))
+        return f"({table}[lane] >> {grouped(shift, ATOM)}) & {shape.mask}"
 
-    def _cell(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
+    def _cell(self, index: int, robot: int, emitter: Emitter, block: Block) -> Text:
         """The index of the table's cell: row-major over the inputs."""
-        module, text = self.frame.episode.modules[index], ""
+        module, cell = self.frame.episode.modules[index], ("0", ATOM)
         for node, labels in zip(module.cells[robot], module.inputs.values(), strict=True):
-            part = emitter.operand(node, block, tight=bool(text))
-            text = f"{_grouped(text)} * {len(labels)} + {part}" if text else part
-        return text or "0"
+            part = emitter.text(node, block)
+            rows = infix("*", cell, (str(len(labels)), ATOM))
+            cell = part if cell[0] == "0" else infix("+", rows, part)
+        return cell
 
     def controls(self, index: int, robot: int) -> str:
         """Whether a behavior controls a robot; the index after the last behavior's is nobody's."""
@@ -145,8 +149,3 @@ class Decision:
             if counts[index] == 1
             else f"({action} >= {first}) & ({action} < {first + counts[index]})"
         )
-
-
-def _grouped(text: str) -> str:
-    """The text as an operand of whatever binds more tightly."""
-    return f"({text})" if " + " in text or " * " in text else text

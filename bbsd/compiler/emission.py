@@ -7,17 +7,29 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
 from bbsd.compiler.schedule import stages
-from bbsd.expression.graph import Kind, Level, Node, needed, value_of
+from bbsd.compiler.texts import (
+    ATOM,
+    COMPARISON,
+    LOWEST,
+    PRECEDENCE,
+    SIGN,
+    Text,
+    grouped,
+    infix,
+    literal_text,
+    sum_of,
+    times,
+)
+from bbsd.expression.graph import Level, Node, needed
 from bbsd.expression.operations import INFIX
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
+    from bbsd.compiler.blocks import Block, Blocks
     from bbsd.compiler.looping import Loops
     from bbsd.compiler.naming import Namer
 
-PRECEDENCE = {"|": 2, "&": 3, "+": 5, "-": 5, "*": 6}
-LOWEST, COMPARISON, SIGN, ATOM = 0, 1, 7, 9
 LONGEST = 88
 DEEPEST = 50
 """Operations within one another at which a value gets a name, however short its text."""
@@ -27,57 +39,16 @@ EXPENSIVE = frozenset(
 """Operations that have a line, and perhaps a loop, of their own."""
 LEAF = frozenset({"slot", "constant", "step", "start"})
 """Operations that read a value where it stands."""
-APART = frozenset({"of", "other", "over", "each"})
-"""Operations that take a value from one loop to another."""
+STANDING = frozenset({"over", "each"})
+"""Operations whose value stands in an array as soon as it is computed."""
+CROSSING = frozenset({"of", "other"})
+"""Operations that read what another robot's loop computes."""
+STEMS = {Level.CALL: "fixed", Level.STEP: "now", Level.ROBOT: "its"}
+"""Of the names of values that mean nothing to the designer, by how often they change."""
 TOP_BIT = 1 << 63  # a literal from here on is uint64 in compiled code
 
 Gathered = tuple[int | tuple[int, ...], tuple[int, ...], tuple[int, ...]]
 """Where an element of the constants is found: from a base, or each robot's, by strides of so many elements."""
-Text = tuple[str, int]
-"""An expression's source and how tightly its outermost operation binds."""
-
-
-@dataclass(slots=True)
-class Block:
-    """Lines of one level and stage, and the nodes that have a name there."""
-
-    level: Level
-    stage: int = 0
-    lines: list[str] = field(default_factory=list)
-    names: dict[int, str] = field(default_factory=dict)
-    kinds: dict[str, Kind] = field(default_factory=dict)
-    """What those names hold that hold no number."""
-
-    def assign(self, name: str, text: str, kind: Kind = Kind.NUMBER) -> None:
-        """Write a line that gives a value its name."""
-        self.lines.append(f"{name} = {text}")
-        if kind is not Kind.NUMBER:
-            self.kinds[name] = kind
-
-
-@dataclass(slots=True)
-class Blocks:
-    """The blocks of a step: once a call, once a step, and for each stage its loop and what is once a robot there."""
-
-    call: Block
-    looped: bool
-    """Whether there are loops over robots: the odd stages."""
-    step: Block = field(default_factory=lambda: Block(Level.STEP))
-    stages: dict[int, Block] = field(default_factory=dict)
-    robots: dict[int, Block] = field(default_factory=dict)
-
-    def stage(self, number: int) -> Block:
-        """The block of a stage."""
-        level = Level.EACH if self.looped and number % 2 else Level.LANE
-        return self.stages.setdefault(number, Block(level, number))
-
-    def robot(self, number: int) -> Block:
-        """What is computed once a robot, before the lanes of a stage."""
-        return self.robots.setdefault(number, Block(Level.ROBOT, number))
-
-    def every(self) -> list[tuple[Block, Block | None]]:
-        """The stages' blocks in their order, each with what is once a robot before it."""
-        return [(self.stages[number], self.robots.get(number)) for number in sorted(self.stages)]
 
 
 @dataclass(slots=True)
@@ -87,7 +58,7 @@ class Emitter:
     namer: Namer
     loops: Loops
     """What is special where there are loops over robots, and how values cross from one stage to another."""
-    leaf: Callable[[Node], str]
+    leaf: Callable[[Node], Text]
     """The source of a slot, a constant or the step."""
     key: str
     """The source of the lane's key."""
@@ -104,9 +75,9 @@ class Emitter:
     stage_of: dict[int, int] = field(default_factory=dict)
 
     def prepare(self, outputs: Iterable[Node], decided: int = 0) -> None:
-        """Count how often each value is used by what is to be written into the blocks, see where it belongs.
+        """Of all that the outputs need see how often it is used, how deep it is and in which stage it belongs.
 
-        And how deep it is.
+        What each robot decided is known from stage `decided` on.
         """
         outputs = list(outputs)
         every = needed(outputs)
@@ -117,35 +88,34 @@ class Emitter:
 
     def value(self, node: Node, into: Block) -> str:
         """The source of a value as an operand on its own; what it needs is written into the blocks first."""
-        self._write_deep(node, into)
-        return self._text(node, into)[0]
+        return self.text(node, into)[0]
 
-    def operand(self, node: Node, into: Block, *, tight: bool) -> str:
-        """The source of a value as an operand of a sum, or as all of an expression."""
+    def text(self, node: Node, into: Block) -> Text:
+        """The same, and how tightly it binds."""
         self._write_deep(node, into)
-        return self._operand(node, into, PRECEDENCE["+"] + 1 if tight else LOWEST)
+        return self._text(node, into)
 
     def named(self, node: Node, wanted: str, into: Block) -> str:
-        """A name or literal for a value: its own if it has one, else the one wanted."""
-        if node.literal or node.operation in LEAF:
-            return self.value(node, into)
+        """A value's source that may be written again and again: its name if it has one, else the one wanted.
+
+        Literals and values that stand in arrays have no name.
+        """
+        return self.repeatable(node, into, wanted)[0]
+
+    def repeatable(self, node: Node, into: Block, wanted: str | None = None) -> Text:
+        """The same, and how tightly it binds; the name is the designer's where none is wanted."""
+        if node.literal or node.operation in LEAF | STANDING:
+            return self.text(node, into)
         self._write_deep(node, into)
-        return self._define(node, wanted, into)
+        return self._define(node, wanted or self.hints.get(node.number), into), ATOM
 
     def copied(self, node: Node, wanted: str, now: Block, later: Block) -> str:
         """A name in a later block for what a slot holds now; the slot may hold something else then."""
         name = self.namer(wanted)
         now.assign(name, self.value(node, now), node.kind)
-        return name if later is now else self.loops.held(name, node, now)
-
-    def _write_deep(self, node: Node, into: Block) -> None:
-        """Name the deep values that a value needs, the lowest first."""
-        if not self.deep:
-            return
-        for operand in needed(node.operands):
-            if operand.number in self.deep:
-                self._define(operand, self.hints.get(operand.number), into)
-                self.deep.remove(operand.number)
+        if later is not now:
+            later.read[name] = self.loops.kept(name, node, now)
+        return name
 
     def _home(self, node: Node, into: Block) -> Block:
         """The block in which a value gets its name, for one that needs it."""
@@ -158,35 +128,46 @@ class Emitter:
                 return self.blocks.robot(into.stage)
         return self.blocks.stage(self.stage_of.get(node.number, 0))
 
+    def _write_deep(self, node: Node, into: Block) -> None:
+        """Name the deep values that a value needs, the lowest first."""
+        if not self.deep:
+            return
+        for operand in needed(node.operands):
+            reachable = operand.level is not Level.ROBOT or into.level in (Level.ROBOT, Level.EACH)
+            if operand.number in self.deep and reachable:
+                self._write(operand, self._home(operand, into))
+                self.deep.remove(operand.number)
+
+    def _write(self, node: Node, home: Block) -> None:
+        if node.operation in STANDING:
+            self.loops.standing(node, self)
+        else:
+            self._define(node, self.hints.get(node.number), home)
+
     def _text(self, node: Node, into: Block) -> Text:
         if node.literal:
-            return _literal(node)
-        home = self._home(node, into)
+            return literal_text(node)
         if node.operation in LEAF:
-            return self.leaf(node), ATOM
-        if self._reads_slot(node) and node.level is into.level:
-            return self._operation(node, into)
+            return self.leaf(node)
+        if node.operation in STANDING:
+            return self.loops.standing(node, self)
+        if node.operation in CROSSING and node.operands[0].operation == "slot" and node.level is into.level:
+            return self.loops.text(node, into, self)
+        home = self._home(node, into)
         if node.number in home.names or node.number in into.names:
             return self._define(node, None, into), ATOM
         worth_a_name = node.number in self.hints or self.uses[node.number] > 1 or home.level < into.level
-        if worth_a_name or node.operation in EXPENSIVE | APART:
+        if worth_a_name or node.operation in EXPENSIVE | CROSSING:
             return self._define(node, self.hints.get(node.number), into), ATOM
-        text, binds = self._operation(node, into)
-        if len(text) > LONGEST:
-            return self._define(node, None, into), ATOM
-        return text, binds
-
-    def _reads_slot(self, node: Node) -> bool:
-        """Whether a value is another robot's slot, read where it stands."""
-        return node.operation in ("of", "other") and node.operands[0].operation == "slot"
+        text = self._operation(node, into)
+        return text if len(text[0]) <= LONGEST else (self._define(node, None, into), ATOM)
 
     def _define(self, node: Node, wanted: str | None, into: Block) -> str:
         """The name of a value: it is written where it belongs, and kept from there if another stage needs it."""
         home = self._home(node, into)
         if node.number not in home.names:
             text, _ = self._operation(node, home)
-            stem = {Level.CALL: "fixed", Level.STEP: "now", Level.ROBOT: "own"}.get(node.level, "part")
-            name = self.namer(wanted) if wanted else self.namer.numbered(stem)
+            name = self.namer(wanted) if wanted else self.namer.numbered(STEMS.get(node.level, "part"))
             home.assign(name, text, node.kind)
             home.names[node.number] = name
         return self._reached(node, home, into)
@@ -194,42 +175,28 @@ class Emitter:
     def _reached(self, node: Node, home: Block, into: Block) -> str:
         """The name under which a block reads a value that another one computed."""
         name = home.names[node.number]
-        if home.level not in (Level.LANE, Level.EACH) or home is into:
-            return name
-        if node.number not in into.names:
-            into.assign(name, self.loops.kept(node, home), node.kind)
+        if home.level in (Level.LANE, Level.EACH) and home is not into and name not in into.read:
+            into.read[name] = self.loops.kept(name, node, home)
             into.names[node.number] = name
         return name
 
-    def _operand(self, node: Node, into: Block, binds: int) -> str:
-        text, own = self._text(node, into)
-        return text if own >= binds else f"({text})"
-
     def _operation(self, node: Node, into: Block) -> Text:
         operation, operands = node.operation, node.operands
-        if operation in PRECEDENCE:
-            own = PRECEDENCE[operation]
-            left, right = (
-                self._operand(operand, into, binds)
-                for operand, binds in zip(operands, (own, own + 1), strict=True)
-            )
-            return f"{left} {operation} {right}", own
-        if operation in INFIX:
-            left, right = (self._operand(operand, into, COMPARISON + 1) for operand in operands)
-            return f"{left} {operation} {right}", COMPARISON
+        if operation in PRECEDENCE or operation in INFIX:
+            left, right = (self._text(operand, into) for operand in operands)
+            return infix(operation, left, right)
         match operation:
             case "negate":
-                return f"-{self._operand(operands[0], into, ATOM)}", SIGN
+                return f"-{grouped(self._text(operands[0], into), ATOM)}", SIGN
             case "not":
-                return f"not {self._operand(operands[0], into, COMPARISON)}", LOWEST
+                binds = ATOM if operands[0].operation in LEAF | STANDING else COMPARISON
+                return f"not {grouped(self._text(operands[0], into), binds)}", LOWEST
             case "draw":
                 return self._draw(node, into), ATOM
             case "gather":
                 return self._gather(node, into), ATOM
-            case "table" | "pick":
-                return self.loops.varied(node), ATOM
-            case "of" | "other" | "over" | "each":
-                return getattr(self.loops, operation)(node, into, self), ATOM
+            case "table" | "pick" | "of" | "other":
+                return self.loops.text(node, into, self)
         arguments = [self._text(operand, into)[0] for operand in operands]
         return self.call(operation, [*arguments, *_data(node)]), ATOM
 
@@ -242,27 +209,27 @@ class Emitter:
     def _draw(self, node: Node, into: Block) -> str:
         distribution, word = cast("tuple[str, int | tuple[int, ...]]", node.data)
         if isinstance(word, tuple):
-            block, named = (
+            block, text = (
                 self.blocks.robot(into.stage),
-                self.loops.tabled(hex(each | TOP_BIT) for each in word),
+                self.loops.by_robot(hex(each | TOP_BIT) for each in word),
             )
         else:
-            block, named = self.blocks.step, hex(word | TOP_BIT)
+            block, text = self.blocks.step, hex(word | TOP_BIT)
         if node.number not in block.names:
-            stream = self.call("fold", [named, self.call("word_of", [self.step])])
             block.names[node.number] = self.namer.numbered("draw")
+            stream = self.call("fold", [text, self.call("word_of", [self.step])])
             block.lines.append(f"{block.names[node.number]} = {stream}")
         operands = [self._text(operand, into)[0] for operand in node.operands]
         return self.call(distribution, [self.key, block.names[node.number], *operands])
 
     def _gather(self, node: Node, into: Block) -> str:
         base, strides, lengths = cast("Gathered", node.data)
-        terms = [self.loops.tabled(str(each) for each in base)] if isinstance(base, tuple) else []
-        terms += [str(base)] if base and not terms else []
+        first = self.loops.by_robot(map(str, base)) if isinstance(base, tuple) else str(base)
+        terms = [(first, ATOM)]
         for stride, length, index in zip(strides, lengths, node.operands, strict=True):
             place = self.call("clamp_index", [self._text(index, into)[0], str(length - 1)])
-            terms.append(place if stride == 1 else f"{stride} * {place}")
-        return f"constants[{' + '.join(terms)}]"
+            terms.append(times(stride, (place, ATOM)))
+        return f"constants[{sum_of(terms)[0]}]"
 
 
 def _deep(nodes: Iterable[Node]) -> set[int]:
@@ -276,20 +243,3 @@ def _deep(nodes: Iterable[Node]) -> set[int]:
 
 def _data(node: Node) -> list[str]:
     return [] if node.data is None else [str(node.data)]
-
-
-def _literal(node: Node) -> Text:
-    value = value_of(node)
-    if node.kind is Kind.NUMBER:
-        return number_text(value)
-    return str(value), ATOM
-
-
-def number_text(value: float) -> Text:
-    """The source of a number, and how tightly it binds."""
-    if value != value:  # noqa: PLR0124 - NaN
-        return "np.nan", ATOM
-    if value in (float("inf"), float("-inf")):
-        return ("np.inf", ATOM) if value > 0 else ("-np.inf", SIGN)
-    text = repr(value)
-    return text, SIGN if text.startswith("-") else ATOM

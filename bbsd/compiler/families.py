@@ -1,14 +1,7 @@
 """What the robots compute alike, found again in a graph in which every robot has nodes of its own.
 
 A family is one node for each robot. Where all of them are the same operation, their operands are families too, and
-so on down to the leaves; then a kernel can write the operation once, in a loop over robots. Such a node has the
-level EACH, or ROBOT where it is the same in every lane. Nodes that only this module makes:
-
-- `of` (data: robot): one robot's value of a family, for the team;
-- `other` (data: a robot for each robot): what each robot sees of another one's value;
-- `over` (data: operation): a family folded robot after robot, as `min(height[r] for r in team)` is;
-- `table` (data: values), `pick` (data: positions): literals, constants that differ from robot to robot;
-- `each`: values that have nothing in common, computed one by one.
+so on down to the leaves; then a kernel can write the operation once, in a loop over robots.
 """
 
 from __future__ import annotations
@@ -17,16 +10,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
-from bbsd.expression.graph import Graph, Kind, Level, Node, kind_drawn
+from bbsd.compiler.robot_graph import RobotGraph
+from bbsd.expression.graph import Level, Node
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from bbsd.compiler.robot_graph import Gathered
     from bbsd.spec.meaning.names import Slot
 
 FOLDS = frozenset({"+", "*", "minimum", "maximum", "&", "|"})
-
-Gathered = tuple[int, tuple[int, ...], tuple[int, ...]]
 
 Key = int | tuple[int, ...]
 """A value of the team by its node's number; a family by those of its nodes."""
@@ -46,23 +39,26 @@ class Families:
     robots: int
     team_slots: frozenset[tuple[str, tuple[int, ...]]]
     """Name and place of what all robots always hold alike: stored once."""
-    graph: Graph = field(default_factory=lambda: Graph(bounded=False))
     found: dict[Key, Node] = field(default_factory=dict)
     _nodes: dict[int, Node] = field(default_factory=dict)
     _owners: dict[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
+    """The family that a node belongs to, and whose value in it it is."""
     _refused: set[Key] = field(default_factory=set)
     """Keys for which the short way did not do."""
     _apart: set[int] = field(default_factory=set)
     """Nodes of families that have nothing in common."""
+    _new: RobotGraph = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._new = RobotGraph(self.robots)
 
     def know(self, families: Iterable[Sequence[Node]]) -> None:
         """Learn which nodes mean the same thing of different robots, whoever reads them."""
         for nodes in families:
             key = self._key(nodes)
-            if isinstance(key, tuple):
+            if isinstance(key, tuple) and _are_alike(nodes):
                 for robot, node in enumerate(nodes):
-                    if node.operands and node.operation != "each":
-                        self._owners.setdefault(node.number, (key, robot))
+                    self._owners.setdefault(node.number, (key, robot))
 
     def team(self, node: Node) -> Node:
         """The new node of a value of the team. Raises CircularError."""
@@ -118,39 +114,24 @@ class Families:
             case "slot":
                 return (), lambda _: self._team_slot(node)
             case "choice":
-                robot = cast("int", node.data)
-                return (), lambda _: self._of(self._choice(), robot)
-        if node.literal or not (node.operands or node.operation in ("draw", "gather")):
-            return (), lambda _: self._again(node, ())
-        if not refused:
-            if node.number in self._owners and node.number not in self._apart:
-                family, robot = self._owners[node.number]
-                return (family,), lambda made: self._member(made[0], robot)
-            spine = self._spine(node)
-            if spine is not None:
-                return (spine,), lambda made: self._folded(node, made[0])
-        return [self._key([operand]) for operand in node.operands], lambda made: self._again(node, made)
+                return (), lambda _: self._new.of(self._new.choice(), cast("int", node.data))
+        if not refused and node.number in self._owners and node.number not in self._apart:
+            family, robot = self._owners[node.number]
+            return (family,), lambda made: self._member(made[0], robot)
+        spine = None if refused else self._spine(node)
+        if spine is not None:
+            return (spine,), lambda made: self._folded(node, made[0])
+        return [self._key([operand]) for operand in node.operands], lambda made: self._new.again([node], made)
 
     def _team_slot(self, node: Node) -> Node:
         name, robot, place = cast("Slot", node.data)
         if robot is None or (name, place) in self.team_slots:
-            data = name, robot and 0, place
-            return self.graph.leaf("slot", data, node.kind, Level.LANE)
-        return self._of(self._own_slot(node), robot)
-
-    def _own_slot(self, node: Node) -> Node:
-        name, _, place = cast("Slot", node.data)
-        return self.graph.leaf("slot", (name, 0, place), node.kind, Level.EACH)
-
-    def _choice(self) -> Node:
-        return self.graph.leaf("choice", 0, Kind.CELL, Level.EACH)
-
-    def _of(self, family: Node, robot: int) -> Node:
-        return self.graph.make("of", (family,), robot, family.kind, Level.LANE)
+            return self._new.slot(node, Level.LANE)
+        return self._new.of(self._new.slot(node, Level.EACH), robot)
 
     def _member(self, family: Node, robot: int) -> Node | None:
         if family.level is Level.EACH:
-            return self._of(family, robot)
+            return self._new.of(family, robot)
         return family if family.level is not Level.ROBOT else None
 
     def _spine(self, node: Node) -> tuple[int, ...] | None:
@@ -171,29 +152,29 @@ class Families:
     def _folded(self, node: Node, family: Node) -> Node | None:
         if family.level is not Level.EACH or family.operation == "each":
             return None
-        return self.graph.make("over", (family,), node.operation, node.kind, Level.LANE)
+        return self._new.over(family, node.operation)
 
     # --- Families
 
     def _plan_of_each(self, nodes: Sequence[Node], *, refused: bool) -> Plan:
         first = nodes[0]
         if all(node.operation == "choice" for node in nodes):
-            return (), lambda _: self._seen(self._choice(), [cast("int", node.data) for node in nodes])
+            return (), lambda _: self._new.other(
+                self._new.choice(), [cast("int", node.data) for node in nodes]
+            )
         if self._are_one_slot(nodes):
             robots = [cast("int", cast("Slot", node.data)[1]) for node in nodes]
-            return (), lambda _: self._seen(self._own_slot(first), robots)
+            return (), lambda _: self._new.other(self._new.slot(first, Level.EACH), robots)
         if not refused and (seen := self._seen_of(nodes)) is not None:
             family, robots = seen
-            return (family,), lambda made: self._seen_member(made[0], robots)
+            return (family,), lambda made: self._seen(made[0], robots)
         if all(node.literal for node in nodes):
-            values = tuple(cast("tuple[object, ...]", node.data) for node in nodes)
-            return (), lambda _: self.graph.make("table", (), values, first.kind, Level.ROBOT)
+            return (), lambda _: self._new.varied("table", nodes)
         if all(node.operation == "constant" for node in nodes):
-            positions = tuple(node.data for node in nodes)
-            return (), lambda _: self.graph.make("pick", (), positions, first.kind, Level.ROBOT)
+            return (), lambda _: self._new.varied("pick", nodes)
         if _are_alike(nodes):
             needs = [self._key(operands) for operands in zip(*(node.operands for node in nodes), strict=True)]
-            return needs, lambda made: self._again(first, made, nodes)
+            return needs, lambda made: self._new.again(nodes, made)
         return self._plan_one_by_one(nodes)
 
     def _are_one_slot(self, nodes: Sequence[Node]) -> bool:
@@ -212,49 +193,15 @@ class Families:
             return None
         return families.pop(), robots
 
-    def _seen(self, family: Node, robots: Sequence[int]) -> Node:
-        if list(robots) == list(range(self.robots)):
-            return family
-        return self.graph.make("other", (family,), tuple(robots), family.kind, Level.EACH)
-
-    def _seen_member(self, family: Node, robots: Sequence[int]) -> Node | None:
+    def _seen(self, family: Node, robots: Sequence[int]) -> Node | None:
         if family.level is Level.ROBOT:
             return None
-        return self._seen(family, robots) if family.level is Level.EACH else family
+        return self._new.other(family, robots) if family.level is Level.EACH else family
 
     def _plan_one_by_one(self, nodes: Sequence[Node]) -> Plan:
-        """Values that have nothing in common: each is computed as the team's, then every robot reads its own."""
+        """Each is computed as the team's, then every robot reads its own."""
         self._apart.update(node.number for node in nodes)
-        needs = [node.number for node in nodes]
-        return needs, lambda made: self.graph.make("each", tuple(made), None, nodes[0].kind, Level.EACH)
-
-    def _again(self, node: Node, operands: Sequence[Node], nodes: Sequence[Node] = ()) -> Node:
-        """The same operation on new operands; `nodes` are all of its family."""
-        graph = self.graph
-        match node.operation:
-            case "draw":
-                distribution, word = cast("tuple[str, int]", node.data)
-                words = tuple(cast("tuple[str, int]", each.data)[1] for each in nodes)
-                level, data = (Level.EACH, words) if nodes else (Level.LANE, word)
-                kind = kind_drawn(distribution)
-                return graph.make("draw", tuple(operands), (distribution, data), kind, level)
-            case "gather":
-                return self._gathered(nodes or [node], operands)
-        if node.literal:
-            return graph.make("literal", (), node.data, node.kind, Level.CALL)
-        if not operands:
-            return graph.leaf(node.operation, node.data, node.kind, node.level)
-        return graph.apply(node.operation, *operands, data=node.data)
-
-    def _gathered(self, nodes: Sequence[Node], operands: Sequence[Node]) -> Node:
-        """An element of the constants, from each robot's own base where they differ."""
-        (base, strides, lengths), *_ = every = [cast("Gathered", node.data) for node in nodes]
-        made = self.graph.gather(base, strides, lengths, tuple(operands))
-        bases = tuple(base for base, _, _ in every)
-        if len(set(bases)) == 1:
-            return made
-        level = Level.ROBOT if made.level in (Level.CALL, Level.STEP, Level.ROBOT) else Level.EACH
-        return self.graph.make("gather", tuple(operands), (bases, strides, lengths), made.kind, level)
+        return [node.number for node in nodes], self._new.each
 
 
 def _are_alike(nodes: Sequence[Node]) -> bool:
@@ -277,8 +224,3 @@ def _same_but_for_place(one: Node, other: Node) -> bool:
         case "gather":
             return cast("Gathered", one.data)[1:] == cast("Gathered", other.data)[1:]
     return one.data == other.data
-
-
-def table_values(node: Node) -> list[object]:
-    """The values of a `table`."""
-    return [values[0] for values in cast("tuple[tuple[object, ...], ...]", node.data)]

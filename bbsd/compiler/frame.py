@@ -7,9 +7,12 @@ from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
-from bbsd.compiler.emission import Block, Blocks, Emitter
+from bbsd.compiler.blocks import Block, Blocks
+from bbsd.compiler.emission import Emitter
 from bbsd.compiler.looping import Loops
+from bbsd.compiler.memory import Memory
 from bbsd.compiler.naming import Namer, slot_text
+from bbsd.compiler.texts import ATOM, COMPARISON, Text
 from bbsd.expression.graph import Kind, Level, Node, needed
 
 if TYPE_CHECKING:
@@ -19,6 +22,9 @@ if TYPE_CHECKING:
     from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.episode import Episode
     from bbsd.spec.meaning.names import Slot
+
+OWN = (Level.ROBOT, Level.EACH)
+"""The levels of what each robot has of its own."""
 
 
 class Detail(Enum):
@@ -31,11 +37,7 @@ class Detail(Enum):
 
 @dataclass
 class Frame:
-    """One rollout function while it is written.
-
-    What is kept from step to step lies in one scratch array of numbers and one of integers, cut into lanes: slices of
-    one array vectorize, separate arrays might overlap as far as LLVM knows.
-    """
+    """One rollout function while it is written."""
 
     meaning: Meaning
     shapes: Sequence[TableShape]
@@ -44,11 +46,7 @@ class Frame:
     tables: dict[str, str] = field(default_factory=dict)
     """Tables with an entry for each robot, source and name: they stand before the function."""
     namer: Namer = field(default_factory=Namer)
-    numbers: list[str] = field(default_factory=list)
-    integers: list[str] = field(default_factory=list)
-    own_numbers: list[str] = field(default_factory=list)
-    own_integers: list[str] = field(default_factory=list)
-    """Those of each robot, where there are loops over robots."""
+    memory: Memory = field(default_factory=Memory)
     used: set[str] = field(default_factory=set)
     """Functions of the kernel that the text calls."""
     call: Block = field(default_factory=lambda: Block(Level.CALL))
@@ -83,7 +81,7 @@ class Frame:
         return slot_text((stem, robot, ()), self.robots)
 
     def keep(self, wanted: str, kind: Kind = Kind.NUMBER, level: Level = Level.LANE) -> str:
-        """An array of a value in every lane, or in every lane of each robot; truths are kept as 0 and 1."""
+        """An array of a value in every lane, or in every lane of each robot."""
         return self._kept(self.namer(wanted), kind, level)
 
     def keep_numbered(self, stem: str, kind: Kind, level: Level) -> str:
@@ -91,56 +89,34 @@ class Frame:
         return self._kept(self.namer.numbered(stem), kind, level)
 
     def _kept(self, name: str, kind: Kind, level: Level) -> str:
-        if level is Level.EACH and self.looped:
-            arrays = self.own_integers if kind is Kind.CELL else self.own_numbers
-        else:
-            arrays = self.integers if kind is Kind.CELL else self.numbers
-        arrays.append(name)
-        return name
+        return self.memory.add(name, kind, own=self.looped and level in OWN)
 
-    def keep_own(self, wanted: str, kind: Kind = Kind.NUMBER) -> str:
-        """An array of what each robot has of its own."""
-        return self.keep(wanted, kind, Level.EACH)
+    def is_own(self, array: str) -> bool:
+        """Whether an array holds a value of each robot."""
+        return self.memory.is_own(array)
 
     def at(self, array: str) -> str:
         """An array's element of the present lane and robot."""
         return f"{array}[own + lane]" if self.is_own(array) else f"{array}[lane]"
 
-    def is_own(self, array: str) -> bool:
-        """Whether an array holds a value of each robot."""
-        return array in self.own_numbers or array in self.own_integers
+    def read(self, array: str, kind: Kind, index: str = "") -> Text:
+        """What an array holds, of the present lane and robot or at an index; truths are kept as 0 and 1."""
+        element = f"{array}[{index}]" if index else self.at(array)
+        return (f"{element} != 0.0", COMPARISON) if kind is Kind.TRUTH else (element, ATOM)
 
     def store(self, array: str, text: str, kind: Kind, index: str = "") -> str:
-        """The line that keeps a value: truths as 0 and 1."""
-        kept = self.call_of("select", text, "1.0", "0.0") if kind is Kind.TRUTH else text
+        """The line that puts a value there."""
+        kept = self._as_number(text) if kind is Kind.TRUTH else text
         return f"{f'{array}[{index}]' if index else self.at(array)} = {kept}"
 
+    def _as_number(self, truth: str) -> str:
+        known = {"True": "1.0", "False": "0.0"}
+        return known.get(truth) or self.call_of("select", truth, "1.0", "0.0")
+
     def scratch(self) -> list[str]:
-        """The arrays of all that is kept: the team's in one piece of memory, the robots' in another.
-
-        Few pieces, so that LLVM has few ranges to compare before it vectorizes a loop.
-        """
-        team = [("key", "streams"), *_kinds("", self.numbers, self.integers)]
-        lines = [
-            f"numbers = np.zeros({len(team) * self.lanes}, np.float64)",
-            "streams = numbers.view(np.uint64)",
-            *(["cells = numbers.view(np.int64)"] if self.integers else []),
-            *(f"{name} = {view}[{self._span(k)}]" for k, (name, view) in enumerate(team)),
-        ]
-        return [*lines, *self._own_scratch()] if self.looped else lines
-
-    def _own_scratch(self) -> list[str]:
-        own = _kinds("own_", self.own_numbers, self.own_integers)
-        stride = len(own) * self.lanes
-        return [
-            f"stride = {stride}",
-            f"own_numbers = np.zeros({stride * self.team}, np.float64)",
-            *(["own_cells = own_numbers.view(np.int64)"] if self.own_integers else []),
-            *(f"{name} = {view}[{k * self.lanes}:]" for k, (name, view) in enumerate(own)),
-        ]
-
-    def _span(self, place: int) -> str:
-        return f"{place * self.lanes}:{(place + 1) * self.lanes}"
+        """The lines that set up the memory of all that is kept."""
+        own = self.memory.own_lines(self.lanes, self.team) if self.looped else []
+        return [*self.memory.lines(self.lanes), *own]
 
     def lane_loop(self, lines: Iterable[str]) -> list[str]:
         """Lines done for every lane."""
@@ -233,16 +209,15 @@ class Frame:
         """The names of the controlling action's number, robot by robot."""
         return [self.namer(self.robots_name("action", robot)) for robot in range(self.robots)]
 
-    def _leaf(self, node: Node) -> str:
+    def _leaf(self, node: Node) -> Text:
         match node.operation:
             case "slot":
-                kept = self.at(self.slot_of(node))
-                return f"({kept} != 0.0)" if node.kind is Kind.TRUTH else kept
+                return self.read(self.slot_of(node), node.kind)
             case "step":
-                return "float(step)"
+                return "float(step)", ATOM
             case "start":
-                return "float(key[lane])"
-        return self._constant(node)
+                return "float(key[lane])", ATOM
+        return self._constant(node), ATOM
 
     def _constant(self, node: Node) -> str:
         if node.number not in self.call.names:
@@ -258,14 +233,6 @@ class Frame:
             for name, value in self.meaning.constants.values.items()
             for place in _places(value)
         ]
-
-
-def _kinds(prefix: str, numbers: Iterable[str], integers: Iterable[str]) -> list[tuple[str, str]]:
-    """Arrays, each with the view of the memory that it is a part of."""
-    return [
-        *((name, f"{prefix}numbers") for name in numbers),
-        *((name, f"{prefix}cells") for name in integers),
-    ]
 
 
 def indented(lines: Iterable[str], depth: int) -> list[str]:

@@ -1,125 +1,132 @@
-"""Loops over robots: what one stage of a step leaves to another, and how robots are told apart in a loop.
-
-The values of one robot lie together, `stride` numbers from those of the next, and what is the team's lies in an
-array of its own. So LLVM can see that a loop over the lanes of one robot does not overwrite what it reads.
-"""
+"""Loops over robots: what one stage of a step leaves to another, and how robots are told apart in a loop."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
-from bbsd.compiler.emission import Block, number_text
-from bbsd.compiler.families import table_values
-from bbsd.expression.graph import Kind, Level, Node
+from bbsd.compiler.texts import ATOM, Text, infix, number_text, sum_of, times
+from bbsd.expression.graph import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from bbsd.compiler.blocks import Block
     from bbsd.compiler.emission import Emitter
     from bbsd.compiler.frame import Frame
+    from bbsd.expression.graph import Node
 
 
 @dataclass
 class Loops:
-    """Writes what crosses from loop to loop of one step."""
+    """Writes what crosses from loop to loop of one step: the operations that `robot_graph` makes."""
 
     frame: Frame
     arrays: dict[int, str] = field(default_factory=dict)
-    """By node, where a value stands that one stage computes and another needs."""
+    """By node, where the values stand that are stored as soon as they are computed."""
     seen: dict[tuple[int, tuple[int, ...]], str] = field(default_factory=dict)
     """By stage, where the values of the robots begin that are seen in it."""
 
-    def kept(self, node: Node, home: Block) -> str:
-        """The source of a value that another stage, `home`, computes and keeps."""
-        return self._read(self._array(node, home), node, "own + lane" if node.level is Level.EACH else "lane")
+    def kept(self, name: str, node: Node, home: Block) -> str:
+        """The source of a value that another stage, `home`, computes under a name and keeps."""
+        return self.frame.read(self._kept(name, node, home), node.kind)[0]
 
-    def held(self, name: str, node: Node, now: Block) -> str:
-        """The source, in a later block, of what has a name now."""
-        array = self._new(f"{name}_kept", node)
-        now.lines.append(self.frame.store(array, name, node.kind))
-        return self._read(array, node, "own + lane" if node.level is Level.EACH else "lane")
+    def _kept(self, name: str, node: Node, home: Block) -> str:
+        if name not in home.kept:
+            home.kept[name] = self.frame.keep(f"{name}_kept", node.kind, node.level)
+        return home.kept[name]
 
-    def _array(self, node: Node, home: Block) -> str:
-        """Where a value is kept; it is stored there by the block that computes it."""
-        if node.number not in self.arrays:
-            name = home.names[node.number]
-            self.arrays[node.number] = self._new(f"{name}_kept", node)
-            home.lines.append(self.frame.store(self.arrays[node.number], name, node.kind))
-        return self.arrays[node.number]
+    def text(self, node: Node, into: Block, emitter: Emitter) -> Text:
+        """The source of what is a robot's own, or is seen of another one."""
+        match node.operation:
+            case "table":
+                return self._table(node), ATOM
+            case "pick":
+                places = cast("tuple[int, ...]", node.data)
+                return f"constants[{self.by_robot(map(str, places))}]", ATOM
+            case "of":
+                robot = times(cast("int", node.data), ("stride", ATOM))
+            case _:
+                robot = self._seen(cast("tuple[int, ...]", node.data), into, emitter), ATOM
+        (family,) = node.operands
+        index, _ = sum_of([robot, ("lane", ATOM)])
+        return self.frame.read(self._array(family, emitter), family.kind, index)
 
-    def _new(self, wanted: str, node: Node) -> str:
-        return self.frame.keep(wanted, node.kind, node.level)
+    def standing(self, node: Node, emitter: Emitter) -> Text:
+        """The source of what stands in an array as soon as it is computed."""
+        return self.frame.read(self._array(node, emitter), node.kind)
 
-    def _read(self, array: str, node: Node, index: str) -> str:
-        return f"({array}[{index}] != 0.0)" if node.kind is Kind.TRUTH else f"{array}[{index}]"
+    def _array(self, node: Node, emitter: Emitter) -> str:
+        """The array in which a value stands; what stores it there is written first."""
+        match node.operation:
+            case "slot":
+                return self.frame.slot_of(node)
+            case "over" | "each":
+                if node.number not in self.arrays:
+                    self.arrays[node.number] = self._stored(node, emitter)
+                return self.arrays[node.number]
+        home = emitter.blocks.stage(emitter.stage_of[node.number])
+        return self._kept(emitter.repeatable(node, home)[0], node, home)
 
-    def _of_family(self, family: Node, index: str, emitter: Emitter) -> str:
-        """The source of a value of a family at an index of its array."""
-        if family.operation == "slot":
-            return self._read(self.frame.slot_of(family), family, index)
-        home = emitter.blocks.stage(emitter.stage_of[family.number])
-        emitter.named(family, "part", home)
-        return self._read(self._array(family, home), family, index)
+    def _stored(self, node: Node, emitter: Emitter) -> str:
+        """The array of a value that is stored in the stage before its own."""
+        block = emitter.blocks.stage(emitter.stage_of[node.number] - 1)
+        store = self._fold if node.operation == "over" else self._gather
+        return store(node, block, emitter)
 
-    # --- The operations that `families` makes
+    def _fold(self, node: Node, block: Block, emitter: Emitter) -> str:
+        """Fold a family in the loop over robots that computes it."""
+        frame, operation = self.frame, cast("str", node.data)
+        value = emitter.repeatable(node.operands[0], block)
+        array = self._new("over", node, emitter)
+        so_far = frame.read(array, node.kind)
+        if operation in ("minimum", "maximum"):
+            folded = frame.call_of(operation, so_far[0], value[0])
+        else:
+            folded, _ = infix(operation, so_far, value)
+        first = frame.call_of("select", "robot == 0", value[0], folded)
+        block.lines.append(frame.store(array, first, node.kind))
+        return array
 
-    def of(self, node: Node, _into: Block, emitter: Emitter) -> str:
-        """One robot's value."""
-        index = f"{node.data} * stride + lane" if node.data else "lane"
-        return self._of_family(node.operands[0], index, emitter)
+    def _gather(self, node: Node, block: Block, emitter: Emitter) -> str:
+        """Compute values that have nothing in common one by one."""
+        array = self._new("apart", node, emitter)
+        for robot, operand in enumerate(node.operands):
+            index, _ = sum_of([times(robot, ("stride", ATOM)), ("lane", ATOM)])
+            block.lines.append(self.frame.store(array, emitter.value(operand, block), node.kind, index))
+        return array
 
-    def other(self, node: Node, into: Block, emitter: Emitter) -> str:
-        """What each robot sees of another one's value."""
-        robots = cast("tuple[int, ...]", node.data)
+    def _new(self, stem: str, node: Node, emitter: Emitter) -> str:
+        """An array for a value, called as the designer calls it if at all."""
+        hint = emitter.hints.get(node.number)
+        if hint:
+            return self.frame.keep(hint, node.kind, node.level)
+        return self.frame.keep_numbered(stem, node.kind, node.level)
+
+    def _seen(self, robots: tuple[int, ...], into: Block, emitter: Emitter) -> str:
+        """The name of where the values begin of the robot that each robot sees."""
         if (into.stage, robots) not in self.seen:
             name = self.frame.namer.numbered("seen")
+            begins, _ = infix("*", self._which(robots), ("stride", ATOM))
+            emitter.blocks.robot(into.stage).lines.append(f"{name} = {begins}")
             self.seen[into.stage, robots] = name
-            emitter.blocks.robot(into.stage).lines.append(f"{name} = {self._which(robots)} * stride")
-        return self._of_family(node.operands[0], f"{self.seen[into.stage, robots]} + lane", emitter)
+        return self.seen[into.stage, robots]
 
-    def _which(self, robots: tuple[int, ...]) -> str:
+    def _which(self, robots: tuple[int, ...]) -> Text:
         """The robot seen by each; the k-th of the others is k for those behind it and k + 1 for the rest."""
         k = robots[-1]
         if robots == tuple(k + (robot <= k) for robot in range(len(robots))):
-            return f"({k} + int(robot <= {k}))"
-        return self.tabled(str(robot) for robot in robots)
+            return sum_of([(str(k), ATOM), (f"int(robot <= {k})", ATOM)])
+        return self.by_robot(map(str, robots)), ATOM
 
-    def over(self, node: Node, _into: Block, emitter: Emitter) -> str:
-        """A family folded in the loop over robots that computes it."""
-        (family,), operation = node.operands, cast("str", node.data)
-        block = emitter.blocks.stage(emitter.stage_of[node.number] - 1)
-        value = emitter.named(family, "part", block)
-        array = self.frame.keep_numbered("over", node.kind, Level.LANE)
-        so_far = self._read(array, node, "lane")
-        if operation in ("minimum", "maximum"):
-            folded = self.frame.call_of(operation, so_far, value)
-        else:
-            folded = f"{so_far} {operation} {value}"
-        first = self.frame.call_of("select", "robot == 0", value, folded)
-        block.lines.append(self.frame.store(array, first, node.kind))
-        return so_far
+    def _table(self, node: Node) -> str:
+        values = [value for value, _ in cast("tuple[tuple[Any, str], ...]", node.data)]
+        return self.by_robot(
+            number_text(value)[0] if node.kind is Kind.NUMBER else str(value) for value in values
+        )
 
-    def each(self, node: Node, _into: Block, emitter: Emitter) -> str:
-        """Values that have nothing in common, computed one by one in the team's loop before."""
-        block = emitter.blocks.stage(emitter.stage_of[node.number] - 1)
-        array = self.frame.keep_numbered("apart", node.kind, Level.EACH)
-        for robot, operand in enumerate(node.operands):
-            text = emitter.value(operand, block)
-            block.lines.append(self.frame.store(array, text, node.kind, f"{robot} * stride + lane"))
-        return self._read(array, node, "own + lane")
-
-    def varied(self, node: Node) -> str:
-        """A literal or a constant that differs from robot to robot."""
-        if node.operation == "pick":
-            return f"constants[{self.tabled(str(place) for place in cast('tuple[int, ...]', node.data))}]"
-        values = table_values(node)
-        if node.kind is Kind.NUMBER:
-            return self.tabled(number_text(cast("float", value))[0] for value in values)
-        return self.tabled(str(value) for value in values)
-
-    def tabled(self, texts: Iterable[str]) -> str:
-        """The entry for the robot of a table that stands before the function."""
+    def by_robot(self, texts: Iterable[str]) -> str:
+        """The robot's entry of a table that stands before the function."""
         text = f"({', '.join(texts)})"
         name = self.frame.tables.setdefault(text, f"BY_ROBOT_{len(self.frame.tables) + 1}")
         return f"{name}[robot]"

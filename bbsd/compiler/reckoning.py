@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.compiler.frame import Detail
 from bbsd.compiler.naming import slot_text
-from bbsd.expression.graph import Kind, Level
+from bbsd.compiler.texts import ATOM, sum_of, times
+from bbsd.expression.graph import Kind
 
 if TYPE_CHECKING:
     from bbsd.compiler.deciding import Decision
@@ -67,8 +68,7 @@ class Reckoning:
 
     def _count_of(self, slot: Slot) -> str:
         wanted = f"odd_{slot_text(slot, self.frame.robots)}"
-        varies = self.frame.episode.after[slot].level in (Level.ROBOT, Level.EACH)
-        return self.frame.keep_own(wanted) if varies else self.frame.keep(wanted)
+        return self.frame.keep(wanted, level=self.frame.episode.after[slot].level)
 
     def start(self) -> list[list[str]]:
         """All sums at 0: the team's, and each robot's."""
@@ -132,10 +132,10 @@ class Reckoning:
             controls = [self._controls(index, robot, emitter, end) for robot in robots]
             lines.append(_added(name, [self._if(each, step) for each in controls]))
         for slot, name in self.odd.items():
-            node = frame.episode.after[slot]
-            finite = frame.call_of("is_finite", emitter.value(node, end.block_of(node)))
+            block = end.knowing(own=frame.is_own(name))
+            finite = frame.call_of("is_finite", emitter.value(frame.episode.after[slot], block))
             more = frame.call_of("select", finite, "0.0", step)
-            end.block_of(node).lines.append(f"{frame.at(name)} = {frame.at(name)} + {more}")
+            block.lines.append(f"{frame.at(name)} = {frame.at(name)} + {more}")
         end.team.lines.append(_added(self.details["taken"][0], [step]))
         for name, (index, nodes) in zip(self.details["held"], self._expected, strict=True):
             held = [self._if(emitter.value(node, end.each), step) for node in nodes]
@@ -194,19 +194,11 @@ class Reckoning:
                 lines.append(
                     f"{argument}[{place}] = {self._per_robot(kept) if argument == 'terms' else kept}"
                 )
-        rows = self._odd_rows()
-        team = [
-            f"odd[{row}, base + lane] = {name}[lane]" for name, row in rows if not self.frame.is_own(name)
-        ]
-        own = [
-            f"odd[{row}, base + lane] = {self.frame.at(name)}"
-            for name, row in rows
-            if self.frame.is_own(name)
-        ]
-        return [
-            *self.frame.lane_loop([*lines, *team]),
-            *(self.frame.robot_loop([], [own]) if own else []),
-        ]
+        own = list[str]()
+        for name, row in self._odd_rows():
+            into = own if self.frame.is_own(name) else lines
+            into.append(f"odd[{row}, base + lane] = {self.frame.at(name)}")
+        return [*self.frame.lane_loop(lines), *(self.frame.robot_loop([], [own]) if own else [])]
 
     def _odd_rows(self) -> list[tuple[str, str]]:
         """The arrays of odd values, each with its row among the places of an evaluation.
@@ -220,7 +212,8 @@ class Reckoning:
             robots = frame.team if frame.looped and arrays[0][0][1] is not None else 1
             for element, (_, name) in enumerate(arrays):
                 if frame.is_own(name):
-                    found.append((name, f"{first + element} + robot * {len(arrays)}"))
+                    row = sum_of([(str(first + element), ATOM), times(len(arrays), ("robot", ATOM))])
+                    found.append((name, row[0]))
                 else:
                     found += [(name, str(first + element + k * len(arrays))) for k in range(robots)]
             first += robots * len(arrays)

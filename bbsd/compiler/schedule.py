@@ -9,13 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Level, Node, needed
+from bbsd.expression.graph import Level, needed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
-    from bbsd.compiler.emission import Block, Emitter
-    from bbsd.compiler.frame import Frame
+    from bbsd.compiler.blocks import Block
+    from bbsd.compiler.emission import Emitter
+    from bbsd.expression.graph import Node
+
+FIRST = {Level.LANE: 0, Level.EACH: 1}
+"""The first stage of the team, and of the robots."""
 
 
 def stages(outputs: Iterable[Node], decided: int) -> dict[int, int]:
@@ -31,12 +35,37 @@ def stages(outputs: Iterable[Node], decided: int) -> dict[int, int]:
 
 def last(nodes: Iterable[Node], found: Mapping[int, int], level: Level) -> int:
     """The first stage of that level, LANE or EACH, in which all these values are there."""
-    return max((_from(node, found, level) for node in nodes), default=level is Level.EACH)
+    return max((_from(node, found, level) for node in nodes), default=FIRST[level])
+
+
+def _stage(node: Node, found: Mapping[int, int], decided: int) -> int:
+    if node.operation == "choice":
+        return decided
+    if node.level not in FIRST:
+        return 0
+    if node.operation in ("of", "over", "other"):
+        return _after(node, node.operands[0], found)
+    return last(node.operands, found, node.level)
+
+
+def _after(node: Node, family: Node, found: Mapping[int, int]) -> int:
+    """The stage of what reads a family from outside: its values stand in an array then."""
+    if family.operation == "slot":
+        return 2 if node.operation == "over" else FIRST[node.level]
+    return found[family.number] + (2 if node.operation == "other" else 1)
+
+
+def _from(node: Node, found: Mapping[int, int], level: Level) -> int:
+    """The first stage of that level that may use a value."""
+    if node.operation == "slot" or node.level not in FIRST:
+        return FIRST[level]
+    stage = found.get(node.number, 0)
+    return stage if stage % 2 == FIRST[level] else stage + 1
 
 
 @dataclass(frozen=True, slots=True)
 class Closing:
-    """The blocks in which a step ends; without loops over robots they are all the same."""
+    """The blocks in which a step ends, of the robots and of the team; the same without loops over robots."""
 
     each: Block
     """Where all is known of a robot."""
@@ -46,17 +75,13 @@ class Closing:
     store_team: Block
     """Where slots are stored that the next step reads: nothing reads them any more in this one."""
 
-    def block_of(self, node: Node) -> Block:
-        """Where a value is certainly known."""
-        return self.each if node.level in (Level.EACH, Level.ROBOT) else self.team
+    def knowing(self, *, own: bool) -> Block:
+        """Where all is known that is a robot's own, or the team's."""
+        return self.each if own else self.team
 
-    def block_at(self, array: str, frame: Frame) -> Block:
-        """Where all is known that an array may hold."""
-        return self.each if frame.is_own(array) else self.team
-
-    def store_of(self, array: str, frame: Frame) -> Block:
-        """Where a slot's array is written."""
-        return self.store_each if frame.is_own(array) else self.store_team
+    def storing(self, *, own: bool) -> Block:
+        """Where a slot is stored that is a robot's own, or the team's."""
+        return self.store_each if own else self.store_team
 
 
 def closing(emitter: Emitter, outputs: Iterable[Node]) -> Closing:
@@ -66,30 +91,3 @@ def closing(emitter: Emitter, outputs: Iterable[Node]) -> Closing:
         return Closing(block(0), block(0), block(0), block(0))
     stage = last(outputs, emitter.stage_of, Level.EACH)
     return Closing(*(block(stage + further) for further in range(4)))
-
-
-def _stage(node: Node, found: Mapping[int, int], decided: int) -> int:
-    operands: Sequence[Node] = node.operands
-    match node.operation:
-        case "choice":
-            return decided
-        case "of" | "over" if operands[0].operation == "slot":
-            return 0 if node.operation == "of" else 2
-        case "other" if operands[0].operation == "slot":
-            return 1
-        case "of" | "over":
-            return found[operands[0].number] + 1
-        case "other":
-            return found[operands[0].number] + 2
-    if node.level not in (Level.LANE, Level.EACH):
-        return 0
-    return last(operands, found, node.level)
-
-
-def _from(node: Node, found: Mapping[int, int], level: Level) -> int:
-    """The first stage of that level that may use a value."""
-    stage = found.get(node.number, 0)
-    each = level is Level.EACH
-    if node.operation == "slot" or node.level not in (Level.LANE, Level.EACH):
-        return int(each)
-    return stage if stage % 2 == each else stage + 1

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.deciding import Decision
-from bbsd.compiler.frame import Detail, Frame, indented
+from bbsd.compiler.frame import OWN, Detail, Frame, indented
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.reckoning import DETAILED, Reckoning
 from bbsd.compiler.rolling import MOST_WRITTEN_OUT, rolled
@@ -95,7 +95,7 @@ def _start(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
     first = emitter.blocks.stage(0)
     first.lines += ["key[lane] = keys[base + lane]", *decision.start()]
     end = closing(emitter, wanted.values())
-    blocks = {slot: end.block_at(array, frame) for slot, array in frame.slots.items()}
+    blocks = {slot: end.knowing(own=frame.is_own(array)) for slot, array in frame.slots.items()}
     texts = {slot: emitter.value(node, blocks[slot]) for slot, node in wanted.items()}
     for slot, text in texts.items():
         blocks[slot].lines.append(frame.store(frame.slots[slot], text, wanted[slot].kind))
@@ -130,8 +130,9 @@ def _step(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
             f"{frame.running}[lane] = {frame.call_of('select', ended, '0.0', f'{frame.running}[lane]')}"
         )
     for slot, text in after.items():
-        line = frame.store(frame.slots[slot], text, frame.episode.after[slot].kind)
-        end.store_of(frame.slots[slot], frame).lines.append(line)
+        array = frame.slots[slot]
+        block = end.storing(own=frame.is_own(array))
+        block.lines.append(frame.store(array, text, frame.episode.after[slot].kind))
     all_over = [] if frame.running is None else [f"if {frame.running}.sum() == 0.0:", "    break"]
     return [*decision.look_up(), *written(emitter.blocks, frame), *all_over]
 
@@ -143,9 +144,10 @@ def _after(frame: Frame, emitter: Emitter, end: Closing) -> dict[Slot, str]:
         node, wanted = frame.episode.after[slot], f"next_{slot_text(slot, frame.robots)}"
         if node.operation == "slot" and node.data == slot:
             continue
-        block = end.store_of(array, frame)
+        block = end.storing(own=frame.is_own(array))
         if node.operation == "slot":
-            found[slot] = emitter.copied(node, wanted, end.block_of(node), block)
+            now = end.knowing(own=node.level in OWN)
+            found[slot] = emitter.copied(node, wanted, now, block)
         else:
             found[slot] = emitter.named(node, wanted, block)
     return found

@@ -11,12 +11,12 @@ import re
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.emission import EXPENSIVE
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.compiler.emission import Block, Blocks
+    from bbsd.compiler.blocks import Block, Blocks
     from bbsd.compiler.frame import Frame
 
 COSTLY = re.compile(rf"\b({'|'.join([*sorted(EXPENSIVE), 'normal'])})\(")
@@ -45,30 +45,27 @@ def written(blocks: Blocks, frame: Frame, *, split: bool = True, apart: Sequence
 
 
 def loops(block: Block, frame: Frame) -> list[list[str]]:
-    """The bodies of loops that do the same as one loop over the block's lines, in their order."""
+    """The bodies of loops that do the same as one loop over the block's lines, in their order.
+
+    Each begins with the values that others computed and ends with storing those that others need.
+    """
     parts = _cut(block.lines)
-    if len(parts) == 1:
-        return parts
-    born = {
-        match[1]: place for place, part in enumerate(parts) for match in map(DEFINED.match, part) if match
-    }
     used = [set(NAME.findall("\n".join(part))) for part in parts]
-    kept = {
-        name: _keep(name, block, frame)
-        for name, place in born.items()
-        if any(name in names for names in used[place + 1 :])
-    }
+    born = [[match[1] for match in map(DEFINED.match, part) if match] for part in parts]
+    kept, read = dict(block.kept), dict(block.read)
+    for place, names in enumerate(born):
+        for name in names:
+            if any(name in others for others in used[place + 1 :]):
+                kind = block.kind_of(name)
+                kept[name] = kept.get(name) or frame.keep(f"{name}_kept", kind)
+                read[name], _ = frame.read(kept[name], kind)
     return [
         [
-            *(_load(name, kept[name], block) for name in kept if born[name] < place and name in used[place]),
+            *(f"{name} = {source}" for name, source in read.items() if name in names - set(here)),
             *part,
-            *(
-                frame.store(kept[name], name, block.kinds.get(name, Kind.NUMBER))
-                for name in kept
-                if born[name] == place
-            ),
+            *(frame.store(kept[name], name, block.kind_of(name)) for name in here if name in kept),
         ]
-        for place, part in enumerate(parts)
+        for part, names, here in zip(parts, used, born, strict=True)
     ]
 
 
@@ -90,11 +87,3 @@ def _cut(lines: list[str]) -> list[list[str]]:
         seen.update(SEEN.findall(line))
         parts[-1].append(line)
     return parts
-
-
-def _keep(name: str, block: Block, frame: Frame) -> str:
-    return frame.keep(f"{name}_kept", block.kinds.get(name, Kind.NUMBER))
-
-
-def _load(name: str, kept: str, block: Block) -> str:
-    return f"{name} = {kept}[lane]{' != 0.0' if block.kinds.get(name) is Kind.TRUTH else ''}"

@@ -4,27 +4,28 @@ from bbsd.kernel.streams import fold, uniform, word_of
 
 
 def rollout(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
-    key = np.zeros(8, np.uint64)
-    numbers = np.zeros(80, np.float64)
-    x_0 = numbers[0:8]
-    x_1 = numbers[8:16]
-    awake_0 = numbers[16:24]
-    awake_1 = numbers[24:32]
-    middle_0 = numbers[32:40]
-    total = numbers[40:48]
-    credit_wait = numbers[48:56]
-    credit_come = numbers[56:64]
-    credit_nobody = numbers[64:72]
-    running_ = numbers[72:80]
-    cells = np.zeros(64, np.int64)
-    priority_wait = cells[0:8]
-    table_wait = cells[8:16]
-    priority_come = cells[16:24]
-    row_come = cells[24:32]
-    cell_come_0 = cells[32:40]
-    choice_come_0 = cells[40:48]
-    cell_come_1 = cells[48:56]
-    choice_come_1 = cells[56:64]
+    numbers = np.zeros(152, np.float64)
+    streams = numbers.view(np.uint64)
+    cells = numbers.view(np.int64)
+    key = streams[0:8]
+    x_0 = numbers[8:16]
+    x_1 = numbers[16:24]
+    awake_0 = numbers[24:32]
+    awake_1 = numbers[32:40]
+    middle_0 = numbers[40:48]
+    total = numbers[48:56]
+    credit_wait = numbers[56:64]
+    credit_come = numbers[64:72]
+    credit_nobody = numbers[72:80]
+    running_ = numbers[80:88]
+    priority_wait = cells[88:96]
+    table_wait = cells[96:104]
+    priority_come = cells[104:112]
+    row_come = cells[112:120]
+    cell_come_0 = cells[120:128]
+    choice_come_0 = cells[128:136]
+    cell_come_1 = cells[136:144]
+    choice_come_1 = cells[144:152]
     reach = constants[0]
     for base in range(first, last, 8):
         draw_1 = fold(0xac39aeacbaa9b617, word_of(0))
@@ -39,8 +40,8 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
             part_2 = uniform(key[lane], draw_2, 0.0, 5.0)
             x_0[lane] = part_1
             x_1[lane] = part_2
-            awake_0[lane] = select(True, 1.0, 0.0)
-            awake_1[lane] = select(True, 1.0, 0.0)
+            awake_0[lane] = 1.0
+            awake_1[lane] = 1.0
             middle_0[lane] = (part_1 + part_2) * 0.5
             total[lane] = 0.0
             credit_wait[lane] = 0.0
@@ -48,32 +49,32 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
             credit_nobody[lane] = 0.0
             running_[lane] = 1.0
         for step in range(1, 11):
-            now_1 = 0.1 * float(step)
             for lane in range(8):
                 cell_come_0[lane] = int(abs(x_0[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_0[lane]), 39)
                 cell_come_1[lane] = int(abs(x_1[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_1[lane]), 39)
             for lane in range(8):
                 choice_come_0[lane] = tables[row_come[lane] + cell_come_0[lane]]
                 choice_come_1[lane] = tables[row_come[lane] + cell_come_1[lane]]
+            now_1 = 0.1 * float(step)
             for lane in range(8):
                 # Decide: the highest layer that is excited and whose cell is not No Action controls.
                 choice_wait_0 = table_wait[lane] & 1
                 bid_wait_0 = select(choice_wait_0 > 0, priority_wait[lane] + choice_wait_0, 0)
                 choice_come_0_ = choice_come_0[lane]
-                bid_come_0 = select((choice_come_0_ > 0) & ((awake_0[lane] != 0.0)), priority_come[lane] + choice_come_0_, 0)
+                bid_come_0 = select((choice_come_0_ > 0) & (awake_0[lane] != 0.0), priority_come[lane] + choice_come_0_, 0)
                 action_0 = maximum(maximum(bid_wait_0, bid_come_0), 0) & 65535
                 choice_wait_1 = table_wait[lane] & 1
                 bid_wait_1 = select(choice_wait_1 > 0, priority_wait[lane] + choice_wait_1, 0)
                 choice_come_1_ = choice_come_1[lane]
-                bid_come_1 = select((choice_come_1_ > 0) & ((awake_1[lane] != 0.0)), priority_come[lane] + choice_come_1_, 0)
+                bid_come_1 = select((choice_come_1_ > 0) & (awake_1[lane] != 0.0), priority_come[lane] + choice_come_1_, 0)
                 action_1 = maximum(maximum(bid_wait_1, bid_come_1), 0) & 65535
                 # Act, then dynamics and sensors.
                 acted_x_0 = select(action_0 == 2, 0.5 * (x_0[lane] + middle_0[lane]), x_0[lane])
                 next_x_0 = acted_x_0 - now_1
                 acted_x_1 = select(action_1 == 2, 0.5 * (x_1[lane] + middle_0[lane]), x_1[lane])
                 next_x_1 = acted_x_1 - now_1
-                next_awake_0 = select(action_0 == 3, False, (awake_0[lane] != 0.0))
-                next_awake_1 = select(action_1 == 3, False, (awake_1[lane] != 0.0))
+                next_awake_0 = select(action_0 == 3, False, awake_0[lane] != 0.0)
+                next_awake_1 = select(action_1 == 3, False, awake_1[lane] != 0.0)
                 next_middle_0 = (next_x_0 + next_x_1) * 0.5
                 # Reward: what each robot earned goes to what controlled it.
                 reward_close_0 = -abs(next_x_0 - next_middle_0)

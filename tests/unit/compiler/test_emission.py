@@ -5,8 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.compiler.emission import Block, Emitter
+from bbsd.compiler.blocks import Block, Blocks
+from bbsd.compiler.emission import Emitter
+from bbsd.compiler.looping import Loops
 from bbsd.compiler.naming import Namer
+from bbsd.compiler.texts import ATOM
 from bbsd.expression.graph import Graph, Kind, Level, evaluate
 from bbsd.kernel import functions
 from tests.unit.problems import episode_of, problem_of
@@ -16,8 +19,10 @@ NUMBERS = ("+", "-", "*", "minimum", "divide", "floor_divide", "modulo")
 
 
 def emitter(hints=None):
-    blocks = {level: Block(level) for level in Level}
-    return Emitter(Namer(), lambda node: node.data, "key", "step", hints or {}, blocks)
+    """An emitter of one loop over lanes, in which nothing crosses to another one."""
+    blocks = Blocks(Block(Level.CALL), looped=False)
+    loops = Loops(frame=None)
+    return Emitter(Namer(), loops, lambda node: (node.data, ATOM), "key", "step", hints or {}, blocks)
 
 
 def slot(graph, name, level=Level.LANE):
@@ -28,8 +33,13 @@ def written(outputs, hints=None):
     """The lines and the final expressions that some values become."""
     made = emitter(hints)
     made.prepare(outputs)
-    texts = [made.value(node) for node in outputs]
-    return [line for level in Level for line in made.blocks[level].lines], texts
+    texts = [made.value(node, made.blocks.stage(0)) for node in outputs]
+    return [line for lines in lines_of(made) for line in lines], texts
+
+
+def lines_of(made):
+    """The lines once a call, once a step, once a lane."""
+    return made.blocks.call.lines, made.blocks.step.lines, made.blocks.stage(0).lines
 
 
 def run(outputs):
@@ -117,20 +127,16 @@ def test_a_value_is_computed_where_it_changes():
     now = graph.apply("-", slot(graph, "b", Level.STEP), graph.number(1))
     value = graph.apply("+", graph.apply("+", fixed, now), slot(graph, "c"))
     made.prepare([value])
-    assert made.value(value) == "now_1 + c"
-    assert [made.blocks[level].lines for level in Level] == [
-        ["fixed_1 = a * 2.0"],
-        ["now_1 = fixed_1 + (b - 1.0)"],
-        [],
-    ]
+    assert made.value(value, made.blocks.stage(0)) == "now_1 + c"
+    assert lines_of(made) == (["fixed_1 = a * 2.0"], ["now_1 = fixed_1 + (b - 1.0)"], [])
 
 
 def test_draws_are_named_by_their_word_and_the_step_once_for_all_lanes():
     graph, made = Graph(), emitter()
     value = graph.draw("uniform", 255, (graph.number(0), slot(graph, "a")))
     made.prepare([value])
-    assert made.value(value) == "uniform(key, draw_1, 0.0, a)"
-    assert made.blocks[Level.STEP].lines == ["draw_1 = fold(0x80000000000000ff, word_of(step))"]
+    assert made.value(value, made.blocks.stage(0)) == "uniform(key, draw_1, 0.0, a)"
+    assert made.blocks.step.lines == ["draw_1 = fold(0x80000000000000ff, word_of(step))"]
     assert made.used == {"uniform", "fold", "word_of"}
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from bbsd.compiler.emission import Block
+from bbsd.compiler.blocks import Block
 from bbsd.compiler.frame import Detail, Frame
 from bbsd.compiler.splitting import LONGEST, loops
 from bbsd.expression.graph import Kind, Level
@@ -33,7 +33,7 @@ def chain(first, last):
 def test_a_short_block_is_one_loop(frame):
     block = block_of([("n0", "x[lane]", Kind.NUMBER), *chain(1, 5), "x[lane] = n5"])
     assert loops(block, frame) == [block.lines]
-    assert frame.numbers == []
+    assert frame.memory.numbers == []
 
 
 def test_what_one_loop_computes_and_another_needs_is_kept(frame):
@@ -48,7 +48,7 @@ def test_what_one_loop_computes_and_another_needs_is_kept(frame):
         "# Act, and so on.",
         "x[lane] = n15 + n3",
     ]
-    assert frame.numbers == ["n3_kept", "n15_kept"]
+    assert frame.memory.numbers == ["n3_kept", "n15_kept"]
 
 
 def test_an_expensive_function_has_a_loop_of_its_own(frame):
@@ -78,7 +78,7 @@ def test_truths_cross_as_numbers_and_cells_as_integers(frame):
     assert "holds_kept[lane] = select(holds, 1.0, 0.0)" in first
     assert "holds = holds_kept[lane] != 0.0" in second
     assert "cell = cell_kept[lane]" in second
-    assert frame.integers == ["cell_kept"]
+    assert frame.memory.integers == ["cell_kept"]
 
 
 def test_a_very_long_block_is_cut_anywhere(frame):
@@ -92,7 +92,7 @@ def test_all_parts_together_compute_what_the_block_does(frame):
     block = block_of([("n0", "x[lane]", Kind.NUMBER), *chain(1, 150), "x[lane] = n150 - n7"])
     names = {"x": [float(lane) for lane in range(4)]}
     parts = loops(block, frame)
-    kept = {name: [0.0] * 4 for name in frame.numbers}
+    kept = {name: [0.0] * 4 for name in frame.memory.numbers}
     for part in parts:
         for lane in range(4):
             exec("\n".join(part), {}, {**names, **kept, "lane": lane})

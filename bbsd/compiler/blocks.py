@@ -1,0 +1,58 @@
+"""Lines of source on their way into the loops of a function."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from bbsd.expression.graph import Kind, Level
+
+
+@dataclass(slots=True)
+class Block:
+    """Lines of one level and stage, and the nodes that have a name there."""
+
+    level: Level
+    stage: int = 0
+    lines: list[str] = field(default_factory=list)
+    names: dict[int, str] = field(default_factory=dict)
+    kinds: dict[str, Kind] = field(default_factory=dict)
+    """What those names hold that hold no number."""
+    read: dict[str, str] = field(default_factory=dict)
+    """For names of values that other blocks compute, the source that reads them."""
+    kept: dict[str, str] = field(default_factory=dict)
+    """For names of values that other blocks need, the arrays that they are kept in."""
+
+    def assign(self, name: str, text: str, kind: Kind = Kind.NUMBER) -> None:
+        """Write a line that gives a value its name."""
+        self.lines.append(f"{name} = {text}")
+        if kind is not Kind.NUMBER:
+            self.kinds[name] = kind
+
+    def kind_of(self, name: str) -> Kind:
+        """What a name that the block defines holds."""
+        return self.kinds.get(name, Kind.NUMBER)
+
+
+@dataclass(slots=True)
+class Blocks:
+    """The blocks of a step: once a call, once a step, and for each stage its loop and what is once a robot there."""
+
+    call: Block
+    looped: bool
+    """Whether there are loops over robots: the odd stages."""
+    step: Block = field(default_factory=lambda: Block(Level.STEP))
+    stages: dict[int, Block] = field(default_factory=dict)
+    robots: dict[int, Block] = field(default_factory=dict)
+
+    def stage(self, number: int) -> Block:
+        """The block of a stage."""
+        level = Level.EACH if self.looped and number % 2 else Level.LANE
+        return self.stages.setdefault(number, Block(level, number))
+
+    def robot(self, number: int) -> Block:
+        """What is computed once a robot, before the lanes of a stage."""
+        return self.robots.setdefault(number, Block(Level.ROBOT, number))
+
+    def every(self) -> list[tuple[Block, Block | None]]:
+        """The stages' blocks in their order, each with what is once a robot before it."""
+        return [(self.stages[number], self.robots.get(number)) for number in sorted(self.stages)]

@@ -1,0 +1,64 @@
+"""What a rollout keeps from step to step and from loop to loop: arrays with a place for every lane.
+
+The team's lie in one piece of memory, the robots' in another: few pieces, so that LLVM has few ranges to compare
+before it vectorizes a loop. The values of one robot lie together, `stride` numbers from those of the next, so a loop
+over the lanes of one robot certainly does not overwrite what it reads of another one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from bbsd.expression.graph import Kind
+
+
+@dataclass(slots=True)
+class Memory:
+    """The names of all that is kept."""
+
+    numbers: list[str] = field(default_factory=list)
+    integers: list[str] = field(default_factory=list)
+    own_numbers: list[str] = field(default_factory=list)
+    own_integers: list[str] = field(default_factory=list)
+    """Those of each robot, where there are loops over robots."""
+
+    def add(self, name: str, kind: Kind, *, own: bool) -> str:
+        """Keep something more; truths are numbers, 0 and 1."""
+        if kind is Kind.CELL:
+            (self.own_integers if own else self.integers).append(name)
+        else:
+            (self.own_numbers if own else self.numbers).append(name)
+        return name
+
+    def is_own(self, name: str) -> bool:
+        """Whether an array holds a value of each robot."""
+        return name in self.own_numbers or name in self.own_integers
+
+    def lines(self, lanes: int) -> list[str]:
+        """The lines that set up the team's arrays."""
+        arrays = [("key", "streams"), *_views("", self.numbers, self.integers)]
+        return [
+            f"numbers = np.zeros({len(arrays) * lanes}, np.float64)",
+            "streams = numbers.view(np.uint64)",
+            *(["cells = numbers.view(np.int64)"] if self.integers else []),
+            *(f"{name} = {view}[{k * lanes}:{(k + 1) * lanes}]" for k, (name, view) in enumerate(arrays)),
+        ]
+
+    def own_lines(self, lanes: int, robots: int) -> list[str]:
+        """The lines that set up the robots' arrays, which begin with the first robot's values."""
+        arrays = _views("own_", self.own_numbers, self.own_integers)
+        stride = len(arrays) * lanes
+        return [
+            f"stride = {stride}",
+            f"own_numbers = np.zeros({stride * robots}, np.float64)",
+            *(["own_cells = own_numbers.view(np.int64)"] if self.own_integers else []),
+            *(f"{name} = {view}[{k * lanes}:]" for k, (name, view) in enumerate(arrays)),
+        ]
+
+
+def _views(prefix: str, numbers: list[str], integers: list[str]) -> list[tuple[str, str]]:
+    """Arrays, each with the view of the memory that it is a part of."""
+    return [
+        *((name, f"{prefix}numbers") for name in numbers),
+        *((name, f"{prefix}cells") for name in integers),
+    ]

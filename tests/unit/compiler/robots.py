@@ -1,0 +1,44 @@
+"""Kernels with loops over robots beside those in which each robot is written out."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from bbsd.compiler.frame import Detail
+from bbsd.compiler.source import module_source
+from bbsd.kernel.modules import load_kernel
+from bbsd.solver.random_agents import random_agents
+
+DETAILS = (Detail.CREDIT, Detail.TERMS)
+DETAILED = ("returns", "credit", "terms", "control", "taken", "odd", "held")
+
+
+def source_with(problem, written_out, details=DETAILS):
+    return module_source(problem.meaning, problem.tables, problem.lanes, details, written_out)
+
+
+def with_loops(problem, written_out=1):
+    """The same problem with a kernel that writes at most so many robots out."""
+    other = replace(problem)
+    names = tuple(detail.value for detail in DETAILS)
+    other.__dict__["_module"] = load_kernel(
+        source_with(problem, written_out), "rollout", names, compiled=problem.compiled
+    )
+    return other
+
+
+def bits(problem, n_agents=5, seed=0, generation=1):
+    """All bits of what comes out of an episode of random agents, by both kernels, by name."""
+    agents = random_agents(problem, seed, n_agents)
+    keys = np.random.default_rng(seed).integers(0, 2**64, n_agents, dtype=np.uint64)
+    team = problem.assemble(agents.pools, agents.members, generation)
+    detailed = team.detailed_episode(keys, agents.structures)
+    found = {name: getattr(detailed, name).tobytes() for name in DETAILED}
+    outcome = team.episode(keys, agents.structures)
+    return {**found, "returns_alone": outcome.returns.tobytes(), "credit_alone": outcome.credit.tobytes()}
+
+
+def assert_loops_change_no_bit(problem, *, looped=True, **wanted):
+    """Whoever reads a robot's values, and in whichever loop; `looped` says whether there should be loops at all."""
+    assert ("for robot in range(" in source_with(problem, 1)) is looped
+    assert bits(with_loops(problem, 1), **wanted) == bits(with_loops(problem, 100), **wanted)
