@@ -30,9 +30,9 @@ Definitions = tuple[tuple[str, int], ...]
 
 
 @st.composite
-def specs(draw: Draw) -> Block:
+def specs(draw: Draw, most_robots: int = 6) -> Block:
     """A spec as plain data."""
-    constants, known = some_constants(draw, robots=draw(st.integers(1, 3)))
+    constants, known = some_constants(draw, robots=draw(st.integers(1, most_robots)))
     starts, team, own = some_values(draw, known)
     definitions, own_defined, all_defined = some_definitions(draw, own, everything(team, own))
     own = replace(own, definitions=own_defined)

@@ -4,13 +4,50 @@ from dataclasses import replace
 
 import numpy as np
 
+from bbsd.compiler import compile_meaning
 from bbsd.compiler.frame import Detail
 from bbsd.compiler.source import module_source
 from bbsd.kernel.modules import load_kernel
 from bbsd.solver.random_agents import random_agents
+from bbsd.spec.meaning import mean
+from bbsd.spec.models import Spec
 
 DETAILS = (Detail.CREDIT, Detail.TERMS)
 DETAILED = ("returns", "credit", "terms", "control", "taken", "odd", "held")
+
+STATE = {"x": "uniform(-2, 2)", "y": "normal(0, 1)", "n": "integers(0, 2)", "armed": "chance(0.5)"}
+
+
+def moving(*, robots=4, lanes=1, compiled=False, state=(), left=(), right=(), reward=None, **environment):
+    """A team that moves along a line; more of its environment and its two behaviors can be given."""
+    left = {
+        "inputs": {"side": "x > 0", "near": "cut(y, -1, 0, 1)"},
+        "actions": {"go": {"x": "x - uniform(0, 1)"}, "turn": {"x": "-y", "armed": "not armed"}},
+        **dict(left),
+    }
+    right = {
+        "excited": "armed",
+        "inputs": {"where": "cut(x, 0, 1)"},
+        "actions": {"go": {"x": "x + 0.25", "n": 0}},
+        **dict(right),
+    }
+    spec = {
+        "bbsd": 1,
+        "name": "moving",
+        "constants": {"table": [[1, 5, 2], [7, 3, 4], [0, 9, 8], [6, 6, 1]]},
+        "environment": {
+            "robots": robots,
+            "steps": 6,
+            "world": {"wind": "normal(0, 1)"},
+            "state": {**STATE, **dict(state)},
+            **environment,
+        },
+        "behaviors": {"left": left, "right": right},
+        "reward": reward or {"x": "x - abs(y)", "y": "y if armed else n"},
+    }
+    meaning, mistakes = mean(Spec.model_validate(spec), 1)
+    assert mistakes == ()
+    return compile_meaning(meaning, lanes=lanes, compiled=compiled)
 
 
 def source_with(problem, written_out, details=DETAILS):

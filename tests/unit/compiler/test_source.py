@@ -40,6 +40,8 @@ reward:
   close: -abs(x - middle)
 """
 
+MANY_GUARDS = GUARD.replace("robots: 2", "robots: 8")
+
 
 def source_of(problem, *details, lanes=8):
     return module_source(problem.meaning, problem.tables, lanes, details)
@@ -58,7 +60,13 @@ def test_the_source_of_an_evaluation_of_a_small_spec(golden):
     golden("compiler/guard_detailed.py", without_title(source_of(problem_of(GUARD), Detail.TERMS)))
 
 
-@pytest.mark.parametrize("text", [RICH, GUARD, shipped("abstract"), shipped("object_lifting")])
+def test_the_source_of_many_robots_loops_over_them(golden):
+    golden("compiler/many_guards.py", without_title(source_of(problem_of(MANY_GUARDS), Detail.CREDIT)))
+
+
+@pytest.mark.parametrize(
+    "text", [RICH, GUARD, MANY_GUARDS, shipped("abstract"), shipped("object_lifting"), shipped("pursuit")]
+)
 def test_a_module_is_python_that_lints_itself(text):
     """Everything imported is used, and everything used is imported or its own."""
     source = source_of(problem_of(text), Detail.CREDIT, Detail.TERMS, Detail.TRACE)
@@ -74,10 +82,11 @@ def test_a_module_is_python_that_lints_itself(text):
 
 
 def test_the_same_spec_is_the_same_source():
-    assert source_of(problem_of(RICH), Detail.CREDIT) == source_of(problem_of(RICH), Detail.CREDIT)
+    for text in (RICH, MANY_GUARDS):
+        assert source_of(problem_of(text), Detail.CREDIT) == source_of(problem_of(text), Detail.CREDIT)
 
 
-@pytest.mark.parametrize("text", [GUARD, RICH])
+@pytest.mark.parametrize("text", [GUARD, MANY_GUARDS, RICH])
 def test_the_solver_s_rollout_knows_nothing_of_expectations(text):
     expecting = text.replace(
         "  wait:\n", "  wait:\n    expects: atan(x - before(x)) > 0 or middle > tan(x)\n"

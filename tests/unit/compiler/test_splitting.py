@@ -97,3 +97,34 @@ def test_all_parts_together_compute_what_the_block_does(frame):
         for lane in range(4):
             exec("\n".join(part), {}, {**names, **kept, "lane": lane})
     assert names["x"] == [143.0] * 4
+
+
+def test_what_other_blocks_computed_is_read_where_it_is_needed(frame):
+    block = block_of(
+        [("n0", "x[lane]", Kind.NUMBER), *chain(1, 15), "# Act.", "x[lane] = n0_elsewhere + n15"]
+    )
+    block.read = {"n0_elsewhere": "n0_elsewhere_kept[lane]", "never": "never_kept[lane]"}
+    first, second = loops(block, frame)
+    assert not any("elsewhere" in line for line in first)
+    assert second[:2] == ["n0_elsewhere = n0_elsewhere_kept[lane]", "n15 = n15_kept[lane]"]
+    assert not any("never" in line for line in (*first, *second))
+
+
+def test_what_other_blocks_need_is_kept_once(frame):
+    block = block_of([("n0", "x[lane]", Kind.NUMBER), *chain(1, 15), "# Act.", "x[lane] = n15 + n3"])
+    block.kept = {"n3": frame.keep("n3_for_all"), "n9": frame.keep("n9_for_all")}
+    first, second = loops(block, frame)
+    assert first[-3:] == ["n3_for_all[lane] = n3", "n9_for_all[lane] = n9", "n15_kept[lane] = n15"]
+    assert second[:2] == ["n3 = n3_for_all[lane]", "n15 = n15_kept[lane]"]
+
+
+def test_a_loop_reads_at_most_two_other_robots(frame):
+    lines = [
+        (f"n{place}", f"x[seen_{seen} + lane]", Kind.NUMBER) for place, seen in enumerate((1, 2, 1, 3, 2, 4))
+    ]
+    parts = loops(block_of(lines), frame)
+    assert [[line.split("[")[1][:6] for line in part] for part in parts] == [
+        ["seen_1", "seen_2", "seen_1"],
+        ["seen_3", "seen_2"],
+        ["seen_4"],
+    ]

@@ -1,0 +1,216 @@
+"""Loops over robots do what robots do that are written out, bit for bit, whatever a spec asks for."""
+
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from bbsd.compiler import compile_meaning
+from bbsd.compiler.frame import Detail
+from bbsd.compiler.rolling import MOST_WRITTEN_OUT, rolled
+from bbsd.spec.meaning import mean
+from bbsd.spec.models import Spec
+from tests.interpreter.made_up import specs
+from tests.unit.architecture.designs import shipped
+from tests.unit.compiler.robots import assert_loops_change_no_bit, bits, moving, source_with, with_loops
+from tests.unit.problems import RICH, lived, problem_of
+
+AMONG_OTHERS = {
+    "mate": "argmin(abs(x[r] - x) for r in others)",
+    "gap": "x - x[mate]",
+    "gap_of_mate": "gap[mate]",
+}
+TILT = {"tilt": "max(x[r] for r in team) - min(x[r] for r in team)", "twice": "2 * tilt"}
+
+CASES = {
+    "state without dynamics": {},
+    "sensors": {"sensors": {"s": "x + y", "t": "s * 2"}, "dynamics": {"x": "x + s"}},
+    "draws everywhere": {
+        "sensors": {"s": "x + normal(0, 0.1)", "c": "chance(0.5)"},
+        "dynamics": {"x": "x + uniform(0, s)", "n": "integers(0, 2)", "wind": "wind + normal(0, 1)"},
+    },
+    "folds": {
+        "sensors": {
+            "low": "min(x[r] for r in team)",
+            "high": "max(y[r] for r in team)",
+            "all_of": "sum(x[r] * y[r] for r in team)",
+            "mean_of": "mean(abs(x[r] - low) for r in team)",
+            "any_of": "any(x[r] > 1 for r in team)",
+            "every_one": "all(armed[r] or y[r] < 0 for r in team)",
+        },
+        "dynamics": {
+            "x": "x + low - high",
+            "y": "y + all_of / 8 - mean_of",
+            "armed": "any_of or every_one and armed",
+        },
+    },
+    "folds over others": {
+        "sensors": {
+            "crowd": "sum(abs(x[r] - x) for r in others)",
+            "near": "min(hypot(x[r] - x, y[r] - y) for r in others)",
+            "most": "max(crowd[r] for r in team)",
+        },
+        "dynamics": {"x": "x + 0.1 * crowd", "y": "y - near + most"},
+    },
+    "the nearest of the others": {
+        "definitions": AMONG_OTHERS,
+        "sensors": {"s": "gap_of_mate"},
+        "dynamics": {"x": "x + gap", "y": "y + s"},
+    },
+    "one robot's values for all": {
+        "sensors": {"lead": "x[0] + y[2]", "follow": "x - x[1]"},
+        "dynamics": {"x": "x + lead", "wind": "wind + x[3] - y[1]"},
+    },
+    "one robot's values for the world alone": {
+        "dynamics": {"wind": "wind + x[3] * y[1]"},
+        "sensors": {"s": "wind"},
+    },
+    "roles": {
+        "sensors": {"s": "x if robot == 0 else y"},
+        "right": {"excited": "robot == 0"},
+        "dynamics": {"y": "y - s"},
+    },
+    "roles with nothing in common": {
+        "sensors": {"s": "sin(x) if robot == 0 else y if robot == 1 else x * y", "t": "s[1] + s[2]"},
+        "dynamics": {"x": "x + s", "y": "wind if robot == 2 else y + t"},
+    },
+    "a role that is seen before it is named": {
+        "sensors": {"first": "level[1] + 1", "level": "y if robot == 0 else x * 2 + robot"},
+        "dynamics": {"y": "first"},
+    },
+    "numbers of robots": {
+        "sensors": {"s": "robot * x + robot ** 2"},
+        "dynamics": {"y": "y + robot / robots + s", "n": "(n + robot) % 3"},
+    },
+    "constants of each robot": {
+        "sensors": {"s": "table[robot][n]", "t": "table[robot][1] * x"},
+        "dynamics": {"n": "(n + table[robot][n]) % 3", "y": "t + step * table[robot][0]"},
+    },
+    "what all hold alike": {"sensors": TILT, "state": {"y": 2}, "dynamics": {"x": "x + twice"}},
+    "what some hold alike": {
+        "sensors": {"s": "wind if robot < 2 else x", "t": "s + 1"},
+        "state": {"y": "2 if robot < 2 else 3"},
+        "dynamics": {"x": "x + t * y"},
+    },
+    "what starts alike and is held apart": {"state": {"y": 2}, "dynamics": {"y": "y + robot"}},
+    "what starts apart and is held alike": {"dynamics": {"y": "wind", "x": 2}},
+    "slots that exchange their values": {"dynamics": {"x": "y", "y": "x"}},
+    "slots that take the world's value": {"dynamics": {"x": "wind", "wind": "x[0]"}},
+    "slots that take another robot's value": {
+        "dynamics": {"x": "x[(robot + 1) % robots]", "y": "y[3 - robot]", "armed": "armed[0]"}
+    },
+    "slots that are what robots are": {"dynamics": {"n": "robot % 3", "y": "step * robot"}},
+    "partitions": {
+        "sensors": {
+            "place": {"low": "x == min(x[r] for r in team)", "high": "x > 1", "middle": "otherwise"},
+            "count": "values(n, 0, 2)",
+        },
+        "left": {"inputs": ["place", "count"]},
+    },
+    "lists": {
+        "sensors": {"eyes": "list(x - k * y for k in range(3))", "ears": "list(eyes[2], wind)"},
+        "dynamics": {"y": "sum(eyes) - ears[1]"},
+    },
+    "an end": {"ends": "any(x[r] > 1.5 for r in team)"},
+    "an end for several reasons": {
+        "ends": "sum(x[r] for r in team) > 4 or y[2] > 1 and step > 2 or all(x[r] < 0 for r in team)"
+    },
+    "expectations": {
+        "sensors": {"s": "min(x[r] for r in team)"},
+        "left": {"expects": "x < before(x) or s > before(s)"},
+        "right": {"expects": "robot < 2 or not armed"},
+        "ends": "any(x[r] > 2 for r in team)",
+    },
+    "large tables": {
+        "sensors": {"s": "x + x[0]"},
+        "left": {"inputs": {"near": "values(floor(8 * y), -20, 20)", "far": "values(floor(4 * s), -9, 9)"}},
+    },
+    "large tables that see what robots are": {
+        "left": {"inputs": {"near": "values(floor(8 * y), -20, 20)", "who": "values(robot, 0, 3)"}}
+    },
+    "expensive functions": {
+        "sensors": {"s": "sin(x) + cos(x[0]) * atan2(y, max(x[r] for r in team))"},
+        "dynamics": {"x": "log(abs(x) + 1) + exp(-abs(s))"},
+    },
+    "values that are not finite": {
+        "sensors": {"eyes": "list(1 / n, log(x), sqrt(robot - 1))", "tilt": "1 / (wind - wind)"},
+        "dynamics": {"y": "1 / (robot - 2)", "wind": "wind / 0"},
+    },
+    "a reward that no robot has a part in": {"reward": {"wind": "wind"}},
+}
+
+
+@pytest.mark.parametrize("lanes", [1, 2])
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+def test_loops_change_no_bit(case, lanes):
+    assert_loops_change_no_bit(moving(lanes=lanes, **case))
+
+
+@pytest.mark.parametrize("text", [RICH, shipped("pursuit"), shipped("object_lifting")])
+def test_loops_change_no_bit_of_larger_specs(text):
+    assert_loops_change_no_bit(problem_of(text, lanes=2), n_agents=3)
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@given(specs(most_robots=6), st.integers(0, 2**32), st.sampled_from([1, 2]), st.integers(1, 3))
+def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, generation):
+    meaning, _ = mean(Spec.model_validate(data), seed)
+    assume(meaning.spec.environment.robots > 1)
+    problem = compile_meaning(meaning, lanes=lanes, compiled=False)
+    written_out = bits(with_loops(problem, 100), 3, seed, generation)
+    assert bits(with_loops(problem, 1), 3, seed, generation) == written_out
+
+
+def test_loops_are_compiled_to_the_same_bits():
+    text = RICH.replace("robots: 3", "robots: 5").replace("chart[robot][n]", "chart[robot % 2][n]")
+    compiled, plain = problem_of(text, lanes=8, compiled=True), problem_of(text, lanes=8)
+    expected = bits(with_loops(compiled, 100), 20)
+    assert bits(with_loops(compiled, 1), 20) == expected
+    assert bits(with_loops(plain, 1), 20) == expected
+
+
+@pytest.mark.parametrize("robots", [1, 2, 3, 4, 5])
+def test_few_robots_are_written_out(robots):
+    problem = moving(robots=robots)
+    source = source_with(problem, MOST_WRITTEN_OUT)
+    assert ("for robot in range(" in source) is (robots > MOST_WRITTEN_OUT)
+    assert (rolled(problem.meaning) is problem.meaning) is (robots <= MOST_WRITTEN_OUT)
+
+
+def test_the_source_does_not_grow_with_the_number_of_robots():
+    few, many = (
+        source_with(moving(robots=robots, **CASES["folds"]), MOST_WRITTEN_OUT, (Detail.CREDIT,))
+        for robots in (4, 40)
+    )
+    assert len(many.splitlines()) == len(few.splitlines())
+
+
+def test_an_operation_of_all_robots_is_written_once():
+    problem = moving(sensors={"s": "atan(x)"}, dynamics={"y": "s"})
+    assert source_with(problem, 1, (Detail.CREDIT,)).count("atan(") == 1 + 1  # at the start and in a step
+
+
+def test_what_all_robots_hold_alike_is_stored_once():
+    source = source_with(moving(**CASES["what all hold alike"]), 1, (Detail.CREDIT,))
+    assert "    twice = numbers[" in source
+    assert "    x = own_numbers[" in source
+
+
+def test_robots_that_need_one_another_are_written_out():
+    problem = moving(sensors={"a": "x if robot == 0 else (x[0] + 1) * 2", "b": "a + 1"}, dynamics={"y": "b"})
+    assert_loops_change_no_bit(problem, looped=False)
+    assert rolled(problem.meaning, 1) is problem.meaning
+
+
+def test_a_trace_is_written_robot_by_robot():
+    assert "for robot in" not in source_with(moving(**CASES["folds"]), 1, (Detail.TRACE,))
+
+
+def test_values_that_are_not_finite_are_counted_at_their_place():
+    problem = moving(lanes=2, **CASES["values that are not finite"])
+    assert "for robot in" in source_with(problem, MOST_WRITTEN_OUT)
+    odd = dict(zip(problem.places, lived(problem, 3).odd[0].tolist(), strict=True))
+    assert [odd["y", robot, ()] for robot in range(4)] == [0, 0, 6, 0]
+    assert [odd["eyes", robot, (2,)] for robot in range(4)] == [6, 0, 0, 0]
+    assert [odd["tilt", robot, ()] for robot in range(4)] == [6] * 4
+    assert odd["wind", None, ()] == 6
+    assert 0 < sum(odd["eyes", robot, (1,)] for robot in range(4)) < 24
