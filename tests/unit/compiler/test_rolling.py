@@ -77,6 +77,10 @@ CASES = {
         "sensors": {"first": "level[1] + 1", "level": "y if robot == 0 else x * 2 + robot"},
         "dynamics": {"y": "first"},
     },
+    "a role that has what another value is": {
+        "sensors": {"a": "x if robot == 0 else x[0] + 1", "b": "a + 1"},
+        "dynamics": {"y": "b"},
+    },
     "numbers of robots": {
         "sensors": {"s": "robot * x + robot ** 2"},
         "dynamics": {"y": "y + robot / robots + s", "n": "(n + robot) % 3"},
@@ -132,7 +136,11 @@ CASES = {
         "dynamics": {"x": "log(abs(x) + 1) + exp(-abs(s))"},
     },
     "values that are not finite": {
-        "sensors": {"eyes": "list(1 / n, log(x), sqrt(robot - 1))", "tilt": "1 / (wind - wind)"},
+        "sensors": {
+            "eyes": "list(1 / n, log(x), sqrt(robot - 1))",
+            "tilt": "1 / (wind - wind)",
+            "walls": "list(1 / (wind - wind), 2)",
+        },
         "dynamics": {"y": "1 / (robot - 2)", "wind": "wind / 0"},
     },
     "a reward that no robot has a part in": {"reward": {"wind": "wind"}},
@@ -212,5 +220,6 @@ def test_values_that_are_not_finite_are_counted_at_their_place():
     assert [odd["y", robot, ()] for robot in range(4)] == [0, 0, 6, 0]
     assert [odd["eyes", robot, (2,)] for robot in range(4)] == [6, 0, 0, 0]
     assert [odd["tilt", robot, ()] for robot in range(4)] == [6] * 4
+    assert [odd["walls", robot, (place,)] for robot in range(4) for place in (0, 1)] == [6, 0] * 4
     assert odd["wind", None, ()] == 6
     assert 0 < sum(odd["eyes", robot, (1,)] for robot in range(4)) < 24
