@@ -12,8 +12,20 @@ LONGEST_GUESSED = 100  # difflib is quadratic, and no name is that long
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return `; did you mean "..."?` with the known name nearest to the word, or '' if none is near."""
+    """Return `; did you mean "..."?` with the known name nearest to the word, or '' if none is near.
+
+    Where no spelling is near, one that abbreviates the other by its initials (dt and delta_t) is.
+    """
     if len(word) > LONGEST_GUESSED:
         return ""
-    near = get_close_matches(word, list(known), n=1)
+    names = list(known)
+    near = get_close_matches(word, names, n=1) or [name for name in names if _is_short_for(name, word)]
     return f'; did you mean "{near[0]}"?' if near else ""
+
+
+def _is_short_for(one: str, other: str) -> bool:
+    return one == _initials(other) or other == _initials(one)
+
+
+def _initials(name: str) -> str:
+    return "".join(part[:1] for part in name.split("_")) if "_" in name else ""

@@ -167,7 +167,9 @@ def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> 
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
     if _is_plain(at) and not 0 <= value_of(chosen) < len(items):
-        message = f"there is no element {value_of(chosen):g}; the {len(items)} count from 0"
+        message = (
+            f"there is no element {value_of(chosen):g}; the {len(items)} count from 0 to {len(items) - 1}"
+        )
         return scope.mistake("BB057", message, at.span)
     if not chosen.literal and len({_shape(item) for item in items}) > 1:
         if any(isinstance(item, Node) and item.kind is Kind.UNKNOWN for item in items):

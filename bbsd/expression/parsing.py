@@ -23,7 +23,8 @@ from bbsd.expression.tree import (
     Truth,
     Unary,
 )
-from bbsd.expression.vocabulary import RESERVED, UNREADABLE
+from bbsd.expression.unreadable import EQUALITY, culprit
+from bbsd.expression.vocabulary import RESERVED
 
 MAX_LENGTH = 4000
 MAX_DEPTH = 40
@@ -97,7 +98,7 @@ def parse(text: str) -> Expr:
     flat = re.sub(r"[\n\t]", " ", text)
     stripped = flat.lstrip(" ")
     shift = len(flat) - len(stripped)
-    return _Builder(shift)(_python(stripped, shift), 0)
+    return _Builder(stripped, shift)(_python(stripped, shift), 0)
 
 
 def _python(text: str, shift: int) -> ast.expr:
@@ -112,24 +113,11 @@ def _python(text: str, shift: int) -> ast.expr:
 
 
 def _syntax_error(text: str, shift: int, error: SyntaxError) -> ExpressionError:
-    start = min(max((error.offset or 1) - 1, 0), max(len(text) - 1, 0))
+    stumbled = min(max((error.offset or 1) - 1, 0), max(len(text) - 1, 0))
+    start, length, advice = culprit(text, stumbled)
     what = text[start : start + 12].strip()
     message = "this cannot be read as an expression" + (f" from {what!r} on" if start and what else "")
-    return _error("BB050", message, shift + start, max(len(what), 1), _advice(text))
-
-
-def _advice(text: str) -> str:
-    """What is probably wrong with an expression that cannot be read."""
-    words = re.findall(r"\b[a-z]+\b", text)
-    if re.search(r"(?<![<>=!:])=(?!=)", text):
-        return "equality is written =="
-    if "&&" in text or "||" in text or "!" in text.replace("!=", ""):
-        return "write and, or, not"
-    if text.count("(") != text.count(")"):
-        return "a parenthesis is open or closed too often"
-    if words.count("if") != words.count("else"):
-        return "a conditional has three parts: x if ... else y"
-    return next((f"{word} cannot be a name in expressions" for word in words if word in UNREADABLE), "")
+    return _error("BB050", message, shift + start, length or len(what), advice)
 
 
 def _error(code: str, message: str, start: int, length: int, advice: str = "") -> ExpressionError:
@@ -143,7 +131,8 @@ def _is_free(name: str) -> bool:
 class _Builder:
     """Whitelists Python's nodes and turns them into the language's own."""
 
-    def __init__(self, shift: int) -> None:
+    def __init__(self, text: str, shift: int) -> None:
+        self.text = text
         self.shift = shift
 
     def span(self, node: ast.expr) -> Span:
@@ -188,12 +177,18 @@ class _Builder:
         if isinstance(node, ast.BinOp | ast.UnaryOp):
             symbol = WRITTEN.get(type(node.op), "")
             message, advice = f"the language does not have the operator {symbol}", INSTEAD.get(symbol, "")
-            return self.refuse(node, "BB051", message, advice)
+            return _error("BB051", message, self.shift + self.sign(node, symbol), len(symbol), advice)
         return self.refuse(node, "BB051", f"the language does not have {REFUSED.get(type(node), 'this')}")
+
+    def sign(self, node: ast.BinOp | ast.UnaryOp, symbol: str) -> int:
+        """Where an operator's sign stands."""
+        left_end = node.left.end_col_offset if isinstance(node, ast.BinOp) else node.col_offset
+        return self.text.index(symbol, left_end)
 
     def call(self, node: ast.Call, depth: int) -> Call:
         if not isinstance(node.func, ast.Name) or node.keywords:
-            raise self.refuse(node, "BB051", "only functions can be called, with plain arguments")
+            advice = EQUALITY if node.keywords else ""
+            raise self.refuse(node, "BB051", "only functions can be called, with plain arguments", advice)
         return Call(node.func.id, tuple(self.argument(part, depth) for part in node.args), self.span(node))
 
     def constant(self, node: ast.expr, value: object) -> Expr:

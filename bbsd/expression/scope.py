@@ -88,6 +88,10 @@ class Findings:
         if len(self.mistakes) >= MAX_MISTAKES:
             raise TooManyMistakesError
 
+    def told_below(self, path: Path) -> bool:
+        """Whether there is a mistake at a path or below it."""
+        return any(place[: len(path)] == path for place, _ in self.mistakes)
+
 
 @dataclass(frozen=True, slots=True)
 class Draws:

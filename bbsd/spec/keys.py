@@ -34,6 +34,26 @@ def field_at(path: Path) -> FieldInfo | None:
     return (fields_at(path[:-1]) or {}).get(str(path[-1])) if path else None
 
 
+def blocks_with(key: str) -> list[str]:
+    """The blocks that have a key of this name, as paths; a spec itself is the top level."""
+    blocks: list[tuple[str, type[Part]]] = [
+        ("the top level", Spec),
+        ("a behavior", Behavior),
+        ("a rule", When),
+    ]
+    found = []
+    while blocks:
+        name, part = blocks.pop(0)
+        found += [name] if key in part.model_fields else []
+        above = "" if part is Spec else f"{name}."
+        blocks += [
+            (f"{above}{below}", inner)
+            for below, field in part.model_fields.items()
+            for inner in _parts(field.annotation)
+        ]
+    return found
+
+
 def _parts(annotation: object) -> Iterator[type[Part]]:
     """The parts of a spec that a key may hold, but not those in a mapping or a list of its own."""
     if isinstance(annotation, type):

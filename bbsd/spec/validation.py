@@ -9,9 +9,9 @@ from annotated_types import Ge, Le
 from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.mistakes import KEY, Mistake
+from bbsd.expression.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.vocabulary import RESERVED
-from bbsd.spec.keys import field_at, fields_at
+from bbsd.spec.keys import blocks_with, field_at, fields_at
 from bbsd.spec.models import Spec
 from bbsd.spec.written import kind_of
 
@@ -128,10 +128,13 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
 
 
 def _unexpected(path: Path) -> Mistake:
-    known = list(fields_at(path[:-1]) or ())
-    hint = did_you_mean(str(path[-1]), known)
+    known, key = list(fields_at(path[:-1]) or ()), str(path[-1])
+    if blocks := blocks_with(key):
+        advice = f"it belongs into {' or '.join(blocks)}"
+        return Mistake("BB020", f'unexpected key "{key}" here', KEY, advice)
+    hint = did_you_mean(key, known)
     advice = "" if hint else f"the keys here: {', '.join(known)}"
-    return Mistake("BB020", f'unexpected key "{path[-1]}"{hint}', KEY, advice)
+    return Mistake("BB020", f'unexpected key "{key}"{hint}', KEY, advice)
 
 
 def _missing(path: Path, key: str) -> Mistake:
@@ -151,7 +154,9 @@ def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
     hint = ""
     if error["type"] == "literal_error":
         hint = did_you_mean(str(error["input"]), needed.split(" or "))
-    return Mistake(code, f"{named(path)} must be {needed}, not {shown(error['input'])}{hint}")
+    listed = isinstance(error["input"], str) and needed.startswith("a list")
+    advice = "a list is written in brackets: [one, another]" if listed else ""
+    return Mistake(code, f"{named(path)} must be {needed}, not {shown(error['input'])}{hint}", WHOLE, advice)
 
 
 NEEDED_BY_KEY = {

@@ -122,7 +122,8 @@ def _node(reading: _Reading, event: Event, depth: int) -> Node:
         return _alias(reading, event, depth)
     reading.count(event, 1, depth)
     if event.tag is not None:
-        advice = 'remove it; if an expression is meant, write "not" for "!"'
+        negated = event.tag.lstrip("!") if event.tag.lstrip("!").isidentifier() else "..."
+        advice = f'remove it; if an expression is meant, write "not {negated}"'
         reading.note("BB009", f'a spec has no tags such as "{event.tag}"', event, advice)
     if event.anchor is None:
         return _unanchored(reading, event, depth)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, GraphTooLargeError, Kind, whole_nodes
+from bbsd.expression.graph import Graph, GraphTooLargeError, Kind, needed, whole_nodes
 from bbsd.expression.mistakes import Mistake, TooManyMistakesError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
 from bbsd.kernel.streams import name_word, word_of
@@ -18,8 +18,9 @@ from bbsd.spec.meaning.rates import Rates, rates
 from bbsd.spec.meaning.structure import Structure, structure
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable, Hashable, Sequence
 
+    from bbsd.expression.graph import Node
     from bbsd.spec.models import Spec
 
 MAX_ROUNDS = 100
@@ -78,22 +79,29 @@ def _meaning(spec: Spec, seed: int, broken: frozenset[str], findings: Findings) 
     layers = structure(spec, findings, broken)
     shared = {name: Shared(value) for name, value in constants.values.items()} | silent
     changing = rates(spec, graph, findings, shared)
+    _check_wholes(meant, constants, findings)
     if meant is None:
         return None
-    _check_wholes(meant, constants, findings)
     return Meaning(spec, seed, graph, constants, meant, layers, changing)
 
 
-def _check_wholes(meant: Episode, constants: Constants, findings: Findings) -> None:
-    """Every value used as an index or in values(...) must be whole, given that the slots it reads are."""
+def _check_wholes(meant: Episode | None, constants: Constants, findings: Findings) -> None:
+    """Every value used as an index or in values(...) must be whole, given that the slots it reads are.
+
+    Where the episode could not be understood, all slots might be.
+    """
     is_whole = cache(constants.whole)
     nodes = [node for *_, node in findings.wholes]
-    slots = {**_whole_slots(meant, is_whole), GENERATION: True}
+    slots = {**(_whole_slots(meant, is_whole) if meant else _slots_read(nodes)), GENERATION: True}
     whole = whole_nodes(nodes, slots, is_whole)
     for path, span, purpose, node in findings.wholes:
         if not whole[node.number]:
             message = f"{purpose} must be a whole number, and this need not be one"
             findings.tell(path, "BB064", message, span, "round it: floor(...) or round(...)")
+
+
+def _slots_read(nodes: Sequence[Node]) -> dict[Hashable, bool]:
+    return {node.data: True for node in needed(nodes) if node.operation == "slot"}
 
 
 def _whole_slots(meant: Episode, is_whole: Callable[[Hashable], bool]) -> dict[Hashable, bool]:

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
+from bbsd.expression.forms import kind_by_form
 from bbsd.expression.graph import Kind, Node
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name, Span
 from bbsd.spec.meaning.names import alone
 from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
 from bbsd.spec.meaning.rules import Table, table
+from bbsd.spec.models import When
 from bbsd.spec.written import Expression
 
 if TYPE_CHECKING:
@@ -64,11 +66,18 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
         names.findings.tell((*path, "inputs"), "BB039", message, KEY, advice)
         return None
     silent = {*names.unusable, *(set(written.inputs) - inputs.keys())}
+    if isinstance(written.inputs, list) and names.findings.told_below((*path, "inputs")):
+        silent |= _asked(written) - inputs.keys()
     given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings, silent)
     if any(len(found) < len(written.inputs) for found in per_robot):
         return None
     cells = tuple(tuple(found.index for found in robot.values()) for robot in per_robot)
     return Module(name, inputs, cells, excited, actions, given)
+
+
+def _asked(written: Behavior) -> set[str]:
+    """What rules ask for; where a name in the list of inputs is wrong, it may be what was meant there."""
+    return {name for rule in written.rules or () if isinstance(rule, When) for name in rule.when}
 
 
 def _excited(written: Behavior, own: Scope, path: Path, robot: int) -> Node:
@@ -145,6 +154,11 @@ def _own(cut: PartitionText, decision: Moment, own: Scope, path: Path, robot: in
     return partition(cut, own.at(path, robot), path, robot)
 
 
+def _kind_by_form(written: PartitionText | None) -> Kind:
+    """What a sensor is by its form alone, even where what it is made of could not be understood."""
+    return kind_by_form(written.tree) if isinstance(written, Expression) else Kind.UNKNOWN
+
+
 def _shared(name: str, decision: Moment, own: Scope, path: Path, robot: int) -> Partition | None:
     """The partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells."""
     names, environment = decision.names, decision.names.spec.environment
@@ -156,7 +170,7 @@ def _shared(name: str, decision: Moment, own: Scope, path: Path, robot: int) -> 
         names.findings.tell(path, "BB041", *_not_listed(name, names))
         return None
     found = elaboration.value(Name(name, WHOLE), own.at(path, robot))
-    if isinstance(found, tuple) or found.kind is Kind.NUMBER:
+    if isinstance(found, tuple) or Kind.NUMBER in (found.kind, _kind_by_form(environment.sensors.get(name))):
         what = "a list" if isinstance(found, tuple) else "a number"
         advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
         message = f"an input needs a partition, and {name} is {what}"

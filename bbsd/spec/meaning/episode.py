@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Level, Node
 from bbsd.expression.mistakes import KEY
@@ -179,7 +180,8 @@ def _dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Nam
                 _as(kinds[name], written, scope.at(path, robot, draws=True)) for robot in robots
             )
         elif name not in names.unusable:
-            message = f"{name} is neither world nor state, so it has no dynamics"
+            hint = did_you_mean(name, acted)
+            message = f"{name} is neither world nor state, so it has no dynamics{hint}"
             names.findings.tell(path, "BB033", message, KEY)
     return then
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 OPEN_CELL = 255
 NO_ACTION = 0
 MAX_LOOKED_AT = 30_000_000
+OTHER_TRUTHS = {"yes": "true", "on": "true", "1": "true", "no": "false", "off": "false", "0": "false"}
 
 Inputs = Mapping[str, tuple[str, ...]]
 """Each input's cells, in the order of the table's dimensions."""
@@ -125,11 +126,16 @@ def _cells_matched(
     named = [_cells(word, cells) for word in when[name]]
     for place, (word, found) in enumerate(zip(when[name], named, strict=True)):
         if found is None:
-            message = f'"{word}" is not a cell of {name}{did_you_mean(word, cells)}'
+            message = f'"{word}" is not a cell of {name}{_cell_meant(word, cells)}'
             findings.tell((*path, "when", name, place), "BB035", message, WHOLE, _cells_advice(cells))
     if None in named:
         return None
     return sorted({cell for found in named for cell in found or ()})
+
+
+def _cell_meant(word: str, cells: tuple[str, ...]) -> str:
+    truth = OTHER_TRUTHS.get(word.lower(), "")
+    return f'; did you mean "{truth}"?' if truth in cells else did_you_mean(word, cells)
 
 
 def _cells_advice(cells: tuple[str, ...]) -> str:

@@ -15,3 +15,9 @@ def test_nothing_is_suggested_among_no_names() -> None:
 
 def test_a_very_long_word_is_not_compared() -> None:
     assert did_you_mean("a" * 1000, ["a" * 1001]) == ""
+
+
+def test_an_abbreviation_is_suggested_where_no_spelling_is_near() -> None:
+    assert did_you_mean("delta_t", ["radius", "dt"]) == '; did you mean "dt"?'
+    assert did_you_mean("ts", ["top_speed", "goal"]) == '; did you mean "top_speed"?'
+    assert did_you_mean("dt", ["delta", "goal"]) == ""

@@ -103,8 +103,9 @@ def test_what_python_has_and_the_language_does_not(text: str) -> None:
 
 @pytest.mark.parametrize(
     ("text", "part"),
-    [("a + B", "B"), ("a in b", "a in b"), ("a is b", "a is b"), ("a + (b @ c)", "b @ c"), ("x(1)(2)", "x(1)(2)"),
-     ("f(a=1)", "f(a=1)"), ("a + True", "True"), ("1 + 1e999", "1e999"), ("a << 2", "a << 2")],
+    [("a + B", "B"), ("a in b", "a in b"), ("a is b", "a is b"), ("a + (b @ c)", "@"), ("x(1)(2)", "x(1)(2)"),
+     ("f(a=1)", "f(a=1)"), ("a + True", "True"), ("1 + 1e999", "1e999"), ("a << 2", "<<"),
+     ("(a) ^ (b)", "^"), ("1 + ~a", "~")],
 )  # fmt: skip
 def test_what_is_refused_is_marked(text: str, part: str) -> None:
     mistake = refused(text)
@@ -122,15 +123,20 @@ def test_generators_have_one_for_new_names_and_no_filter(text: str) -> None:
 
 @pytest.mark.parametrize(
     ("text", "advice"),
-    [("a = 3", "equality is written =="), ("a && b", "write and, or, not"), ("!a", "write and, or, not"),
-     ("max(a", "a parenthesis is open or closed too often"),
-     ("a if b", "a conditional has three parts: x if ... else y"),
-     ("class > 3", "class cannot be a name in expressions")],
-)  # fmt: skip
+    [
+        ("a if b", "a conditional has three parts: x if ... else y"),
+        ("class > 3", "class cannot be a name in expressions"),
+        ("a = 3", "equality is written =="),
+    ],
+)
 def test_what_cannot_be_read_gets_advice(text: str, advice: str) -> None:
     mistake = refused(text)
     assert mistake.code == "BB050"
     assert mistake.advice == advice
+
+
+def test_an_argument_by_name_was_meant_as_a_comparison() -> None:
+    assert refused("abs(a=1)").advice == "equality is written =="
 
 
 @pytest.mark.parametrize("text", ["", "  ", "\n", "a # b", "ä", "a\x00", "a\u00a0+ b", "\\"])

@@ -1,0 +1,24 @@
+"""What an expression is by its form alone, whatever its parts are."""
+
+from __future__ import annotations
+
+from bbsd.expression.graph import Kind
+from bbsd.expression.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
+from bbsd.expression.vocabulary import FUNCTIONS
+
+AGGREGATES_OF_NUMBERS = ("sum", "mean", "argmin", "argmax")
+AGGREGATES_OF_TRUTHS = ("any", "all")
+
+
+def kind_by_form(expr: Expr) -> Kind:
+    """Number or truth where that follows from the outermost operation; else unknown."""
+    match expr:
+        case Number() | Binary() | Unary(operator="-" | "+"):
+            return Kind.NUMBER
+        case Truth() | Comparison() | Logical() | Unary():
+            return Kind.TRUTH
+        case Call(function=name) if name in FUNCTIONS or name in AGGREGATES_OF_NUMBERS:
+            return Kind.NUMBER
+        case Call(function=name) if name in AGGREGATES_OF_TRUTHS:
+            return Kind.TRUTH
+    return Kind.UNKNOWN

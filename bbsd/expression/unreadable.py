@@ -1,0 +1,44 @@
+"""Where an expression that cannot be read goes wrong, and what is probably meant."""
+
+from __future__ import annotations
+
+import re
+
+from bbsd.expression.vocabulary import UNREADABLE
+
+FOREIGN_SIGN = re.compile(r"(?<![<>=!:])=(?!=)|&&|\|\||!(?!=)")
+EQUALITY = "equality is written =="
+INSTEAD = {"=": EQUALITY, "&&": "write and", "||": "write or", "!": "write not"}
+CLOSING = {"(": ")", "[": "]", "{": "}"}
+
+
+def culprit(text: str, stumbled: int) -> tuple[int, int, str]:
+    """Start, length and advice for a text that Python's parser stumbled over somewhere, maybe only later."""
+    if sign := FOREIGN_SIGN.search(text):
+        return sign.start(), len(sign[0]), INSTEAD[sign[0]]
+    if bracket := _odd_bracket(text):
+        place, advice = bracket
+        return place, 1, advice
+    return stumbled, 0, _about_words(re.findall(r"\b[a-z]+\b", text))
+
+
+def _odd_bracket(text: str) -> tuple[int, str] | None:
+    """The first bracket that closes nothing or the wrong one, or the last that is never closed."""
+    still_open: list[int] = []
+    for place, sign in enumerate(text):
+        if sign in CLOSING:
+            still_open.append(place)
+        elif sign in CLOSING.values():
+            wanted = CLOSING[text[still_open.pop()]] if still_open else ""
+            if sign != wanted:
+                return place, f"{wanted} is missing before it" if wanted else f"this {sign} closes nothing"
+    if not still_open:
+        return None
+    sign = text[still_open[-1]]
+    return still_open[-1], f"this {sign} is never closed; {CLOSING[sign]} is missing"
+
+
+def _about_words(words: list[str]) -> str:
+    if words.count("if") != words.count("else"):
+        return "a conditional has three parts: x if ... else y"
+    return next((f"{word} cannot be a name in expressions" for word in words if word in UNREADABLE), "")
