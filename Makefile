@@ -4,7 +4,7 @@ PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint unit claims worlds figures bench clean
+.PHONY: demo test lint unit claims worlds arms figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -25,6 +25,9 @@ claims: $(VENV)/.demo
 
 worlds: $(VENV)/.demo
 	$(BIN)/python benchmarks/worlds.py
+
+arms: $(VENV)/.demo
+	$(BIN)/python benchmarks/arms.py
 
 # The pictures of episodes in README.md and docs/cookbook.md.
 figures: $(VENV)/.demo

@@ -1,128 +1,163 @@
-"""Damaged specs, for as long as wanted: `python benchmarks/fuzz.py --seconds 3600`.
+"""Damaged and burdensome specs, for as long as wanted: `python -m benchmarks.fuzz --seconds 3600`.
 
-Every shipped and every test spec is damaged at random, character by character, line by line and word by word.
-Nothing but diagnoses may come out: no traceback, and no check that takes more than two seconds of the processor.
-Exits with 1 and keeps the spec that broke the rule.
+Every shipped and every test spec is damaged at random, in its text, its data and its expressions, and specs are made
+up that are as large, deep or involved as 1 MB allows. Nothing but diagnoses may come out of `bbsd check`, in all its
+formats, and of `bbsd fmt`: no traceback, no check of more than two seconds of the processor, no more memory than
+500 MB, no file written or read but the spec. Exits with 1 and keeps the spec that broke a rule.
 """
 
 from __future__ import annotations
 
 import argparse
+import faulthandler
+import os
 import random
-import re
+import resource
 import sys
 import tempfile
 import time
 import traceback
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from bbsd.errors import SpecError, render_text
-from bbsd.expression.vocabulary import RESERVED
-from bbsd.spec.loading import check
-from bbsd.text import Source
+from bbsd.errors import SpecError, render_json, render_text
+from bbsd.report.github import github_text
+from bbsd.report.sarif import sarif_log
+from bbsd.spec.loading import load
+from bbsd.text import Source, read
+from bbsd.text.house_style import in_house_style
+from benchmarks.burdens import burden
+from benchmarks.damage import damaged
 
 ROOT = Path(__file__).parents[1]
+SPECS = (*ROOT.glob("specs/*.yaml"), *ROOT.glob("tests/specs/*/*.yaml"), *ROOT.glob("tests/planted/*.yaml"))
 SLOW = 2.0
-SIGNS = [
-    "1e308",
-    "0",
-    "-1",
-    "NaN",
-    ".inf",
-    "null",
-    "[",
-    "{",
-    "}",
-    "]",
-    "-",
-    "&a",
-    "*a",
-    "<<",
-    "!!x",
-    "|",
-    ">",
-    "#",
-    "'",
-    '"',
-    "é",
-    "x-",
-]
-WORDS = [*sorted(RESERVED), *SIGNS, ": ", "\t", "(" * 30, "9" * 400]
+MEGABYTES = 500
+HANGS = 120
+"""Seconds after which a check that does not come back is told of with its stack."""
+WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+FORBIDDEN = (
+    "os.system",
+    "os.exec",
+    "os.posix_spawn",
+    "os.fork",
+    "subprocess.Popen",
+    "socket.connect",
+    "ctypes.dlopen",
+)
+CHANGES = (
+    "os.mkdir",
+    "os.remove",
+    "os.rename",
+    "os.rmdir",
+    "os.link",
+    "os.symlink",
+    "os.truncate",
+    "os.chmod",
+)
 
 
-def damaged(text: str, dice: random.Random) -> str:
-    """The text with one to six things done to it."""
-    for _ in range(dice.randint(1, 6)):
-        text = dice.choice((_character, _line, _word, _splice))(text, dice)
-    return text
+@dataclass
+class Watch:
+    """Notes what a check does beside thinking: files opened or changed, programs started."""
+
+    spec: str = ""
+    on: bool = False
+    seen: list[str] = field(default_factory=list)
+
+    def __call__(self, event: str, arguments: tuple[object, ...]) -> None:
+        """Note an audit event of Python's."""
+        if not self.on:
+            return
+        if event == "open":
+            path, _, flags = arguments
+            wrote = isinstance(flags, int) and flags & WRITES
+            if wrote or not (str(path) == self.spec or str(path).endswith((".py", ".pyc", ".so"))):
+                self.seen.append(f"{'wrote' if wrote else 'read'} {path!r}")
+        elif event in FORBIDDEN or event in CHANGES:
+            self.seen.append(f"{event} {arguments!r}")
 
 
-def _character(text: str, dice: random.Random) -> str:
-    place = dice.randrange(len(text) + 1)
-    return (
-        text[:place]
-        + chr(dice.choice((dice.randrange(32, 127), dice.randrange(1, 0x2FFF))))
-        + text[place + dice.randint(0, 2) :]
-    )
-
-
-def _line(text: str, dice: random.Random) -> str:
-    lines = text.split("\n")
-    place, other = dice.randrange(len(lines)), dice.randrange(len(lines))
-    lines[place] = dice.choice(
-        ("", lines[other], "  " * dice.randint(0, 5) + lines[place].strip(), lines[place] * 2)
-    )
-    return "\n".join(lines)
-
-
-def _word(text: str, dice: random.Random) -> str:
-    words = re.split(r"(\W)", text)
-    words[dice.randrange(len(words))] = dice.choice((*WORDS, *words))
-    return "".join(words)
-
-
-def _splice(text: str, dice: random.Random) -> str:
-    first, last = sorted((dice.randrange(len(text) + 1), dice.randrange(len(text) + 1)))
-    part = text[first : min(last, first + 200)]
-    place = dice.randrange(len(text) + 1)
-    return text[:place] + part + text[place:]
-
-
-def broken_by(text: str) -> str:
-    """What is wrong with how the check took this text; nothing if it did as it should."""
-    source, began = Source("fuzzed.yaml", text), time.process_time()
+def checked(path: Path) -> None:
+    """Do what `bbsd check` does, in every format."""
     try:
-        for diagnosis in check(source):
-            render_text(diagnosis, source.line(diagnosis.place.line))
+        load(Source.read(path))
+    except SpecError as error:
+        for each in error.diagnoses:
+            render_text(each, error.line(each.place))
+        github_text(error.diagnoses)
+        render_json(error.diagnoses)
+        sarif_log(error.diagnoses)
+
+
+def styled(path: Path) -> None:
+    """Do what `bbsd fmt` does but for writing."""
+    try:
+        document = read(Source.read(path))
     except SpecError:
-        return "a mistake was raised instead of told"
-    except Exception:  # noqa: BLE001 - whatever it is, it is what is looked for
-        return traceback.format_exc()
-    taken = time.process_time() - began
-    return f"the check took {taken:.1f} s" if taken > SLOW else ""
+        return
+    if not document.diagnoses:
+        in_house_style(document)
+
+
+def broken_by(path: Path, watch: Watch) -> tuple[str, float]:
+    """What is wrong with how a spec was taken, nothing if all was as it should be; and the seconds of its check."""
+    watch.spec, watch.seen = str(path), []
+    began, taken, wrong = time.process_time(), 0.0, ""
+    faulthandler.dump_traceback_later(HANGS, exit=True)
+    watch.on = True
+    try:
+        checked(path)
+        taken = time.process_time() - began
+        styled(path)
+    except BaseException:  # noqa: BLE001 - whatever it is, it is what is looked for
+        wrong = traceback.format_exc()
+    watch.on = False
+    faulthandler.cancel_dump_traceback_later()
+    wrong = wrong or (f"the check took {taken:.1f} s of the processor" if taken > SLOW else "")
+    wrong = wrong or (f"{peak_megabytes():.0f} MB of memory" if peak_megabytes() > MEGABYTES else "")
+    return wrong or "\n".join(watch.seen), taken
+
+
+def peak_megabytes() -> float:
+    """The most memory that this process had at any time."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def made(dice: random.Random, specs: list[str]) -> bytes:
+    """A spec as bytes, now and then not of UTF-8."""
+    text = burden(dice) if dice.random() < 0.25 else damaged(dice.choice(specs), dice)
+    if dice.random() < 0.02:
+        return text.encode(dice.choice(("utf-16", "latin-1", "utf-8-sig")), errors="replace")
+    return text.encode("utf-8", errors="surrogatepass")
 
 
 def main() -> int:
-    """Damage specs until the time is over or one of them breaks a rule."""
+    """Make specs until the time is over or one of them breaks a rule."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
-    dice = random.Random(options.seed)
-    specs = [
-        path.read_text() for path in sorted((*ROOT.glob("specs/*.yaml"), *ROOT.glob("tests/specs/*/*.yaml")))
-    ]
-    end, tried = time.monotonic() + options.seconds, 0
-    while time.monotonic() < end:
-        text = damaged(dice.choice(specs), dice)
+    sys.dont_write_bytecode = True
+    watch, dice = Watch(), random.Random(options.seed)
+    sys.addaudithook(watch)
+    specs = [path.read_text(encoding="utf-8", errors="replace") for path in sorted(SPECS)]
+    folder = Path(tempfile.mkdtemp(prefix="bbsd-fuzz-"))
+    path = folder / "fuzzed.yaml"
+    began, tried, slowest = time.monotonic(), 0, 0.0
+    while time.monotonic() - began < options.seconds:
+        path.write_bytes(made(dice, specs))
         tried += 1
-        if wrong := broken_by(text):
-            kept = Path(tempfile.mkdtemp()) / "fuzzed.yaml"
-            kept.write_text(text, encoding="utf-8", errors="surrogatepass")
-            print(f"after {tried} specs: {kept}\n{wrong}")
+        wrong, taken = broken_by(path, watch)
+        slowest = max(slowest, taken)
+        if wrong:
+            print(f"after {tried} specs of seed {options.seed}: {path}\n{wrong}")
             return 1
+    path.unlink()
+    folder.rmdir()
     print(
-        f"{tried} damaged specs in {options.seconds:.0f} s: nothing but diagnoses, none took longer than {SLOW:.0f} s"
+        f"{tried} specs in {time.monotonic() - began:.0f} s with seed {options.seed}: nothing but diagnoses, at most "
+        f"{slowest:.2f} s of the processor each, {peak_megabytes():.0f} MB in all, no file touched but the spec"
     )
     return 0
 
