@@ -16,118 +16,26 @@ if TYPE_CHECKING:
 
     Damage = Callable[[str, random.Random], str]
 
+# fmt: off
 SIGNS = [
-    "1e308",
-    "0",
-    "-1",
-    "NaN",
-    ".inf",
-    "null",
-    "[",
-    "{",
-    "}",
-    "]",
-    "-",
-    "&a",
-    "*a",
-    "<<",
-    "!!x",
-    "|",
-    ">",
-    "#",
+    "1e308", "0", "-1", "NaN", ".inf", "null", "[", "{", "}", "]", "-", "&a", "*a", "<<", "!!x", "|", ">", "#", "'",
+    '"', "é", "x-", "=", "==", "&&", "^", "...", "---", "? ", ": ", "%YAML 1.1", "@", "`", "\\", "\t", "\r", "\u2028",
+    "(" * 30, "9" * 400,
 ]
-SIGNS += [
-    "'",
-    '"',
-    "é",
-    "x-",
-    "=",
-    "==",
-    "&&",
-    "^",
-    "...",
-    "---",
-    "? ",
-    "%YAML 1.1",
-    "@",
-    "`",
-    "\\",
-    "\r",
-    "\u2028",
-]
-WORDS = [*sorted(RESERVED), *SIGNS, ": ", "\t", "(" * 30, "9" * 400]
 NAMES = [
-    "",
-    " ",
-    "__class__",
-    "__import__('os')",
-    "a.b",
-    "../x",
-    "A",
-    "ü",
-    "\u202eevil",
-    "\U0001f600",
-    "a\u0301",
-    "x" * 5000,
-]
-NAMES += [
-    "\x1b[31m",
-    "\n",
-    "${x}",
-    "%s",
-    "{0}",
-    "true",
-    "1",
-    "~",
-    "otherwise",
-    "open",
-    "stands_for_a_mistake",
-    "*",
-    "<tag>",
+    "", " ", "\n", "__class__", "__import__('os')", "a.b", "../x", "A", "ü", "\u202eevil", "\U0001f600", "a\u0301", "1",
+    "\x1b[31m", "${x}", "%s", "{0}", "true", "~", "otherwise", "open", "stands_for_a_mistake", "*", "<tag>", "x" * 5000,
 ]
 NUMBERS = [
-    0,
-    -1,
-    1,
-    2,
-    64,
-    65,
-    255,
-    256,
-    2**31,
-    2**63,
-    2**64,
-    10**30,
-    -(10**30),
-    1e-320,
-    1e308,
-    0.1,
-    float("inf"),
-    float("nan"),
+    0, -1, 1, 2, 64, 65, 256, 2**31, 2**64, 10**30, -(10**30), 1e-320, 1e308, 0.1, float("inf"), float("nan"),
 ]
 EXPRESSIONS = [
-    "1 / 0",
-    "0 ** -1",
-    "9 ** 9 ** 9",
-    "2 ** 2 ** 2 ** 2 ** 2",
-    "1e308 * 10",
-    "sqrt(-1)",
-    "before(before(x))",
+    "1 / 0", "0 ** -1", "9 ** 9 ** 9", "2 ** 2 ** 2 ** 2 ** 2", "1e308 * 10", "sqrt(-1)", "before(before(x))",
+    "robot[0]", "sum(r for r in team)", "list(x for x in range(10000))", "normal(0, 1)", "cut(x, 1)", "otherwise",
+    "lambda: 0", "x.__class__", "list(list(1 for i in range(100)) for j in range(100))", "'a' * 10 ** 9",
 ]
-EXPRESSIONS += [
-    "sum(r for r in team)",
-    "list(x for x in range(10000))",
-    "robot[0]",
-    "normal(0, 1)",
-    "cut(x, 1)",
-    "otherwise",
-]
-EXPRESSIONS += [
-    "list(list(1 for i in range(100)) for j in range(100))",
-    "lambda: 0",
-    "x.__class__",
-    "'a' * 10 ** 9",
-]
+# fmt: on
+WORDS = [*sorted(RESERVED), *SIGNS]
 
 
 def characters(text: str, dice: random.Random) -> str:
@@ -256,7 +164,8 @@ def expression(text: str, dice: random.Random) -> str:
         case 3:
             return f"({text})" + f" {dice.choice('+*/%<&')} ({text})" * dice.choice((1, 5, 50))
         case _:
-            return f"{dice.choice(('sum', 'list', 'max', 'any'))}({text} for i in range({dice.choice((1, 64, 9999, 10**9))}))"
+            over = dice.choice((1, 64, 9999, 10**9))
+            return f"{dice.choice(('sum', 'list', 'max', 'any'))}({text} for i in range({over}))"
     return "".join(parts)
 
 

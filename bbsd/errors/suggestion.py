@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 LONGEST_GUESSED = 100  # difflib is quadratic, and no name is that long
+MOST_COMPARED = 60  # difflib is slow, and a hostile file has thousands of names and hundreds of mistakes
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
@@ -18,9 +19,19 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """
     if len(word) > LONGEST_GUESSED:
         return ""
-    names = list(known)
+    names = _likely(word, list(known))
     near = get_close_matches(word, names, n=1) or [name for name in names if _is_short_for(name, word)]
     return f'; did you mean "{near[0]}"?' if near else ""
+
+
+def _likely(word: str, names: list[str]) -> list[str]:
+    """All names if they are few; else some of about the same length that begin or end alike."""
+    if len(names) <= MOST_COMPARED:
+        return names
+    few, many = len(word) * 2 // 3, len(word) * 3 // 2 + 1
+    first, last = word[:1], word[-2:]
+    alike = [name for name in names if few <= len(name) <= many and (name[:1] == first or name[-2:] == last)]
+    return alike[:MOST_COMPARED]
 
 
 def _is_short_for(one: str, other: str) -> bool:

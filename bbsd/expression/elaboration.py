@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Draws, Scope, Value
 
 MAX_WHOLE_POWER = 64
+EXPRESSION_WORK = 5
+"""The work of beginning an expression for a robot, beside that of its nodes."""
 
 
 def number(expr: Expr, scope: Scope) -> Node:
@@ -62,6 +64,7 @@ def scalar(expr: Expr, scope: Scope) -> Node:
 def value(expr: Expr, scope: Scope) -> Value:
     """The expression as whatever it is: a number, a truth or a list."""
     scope.findings.entered = (scope.path, expr.span)
+    scope.graph.spend(EXPRESSION_WORK)
     return _value(expr, _with_draws_numbered(expr, scope))
 
 

@@ -67,7 +67,9 @@ def _without_value(expr: Name, scope: Scope) -> Node:
             return unseen(f"{name} of the world", span, scope, name)
         case Unusable(code=code, reason=reason, advice=advice):
             return scope.mistake(code, reason, span, advice) if reason else scope.graph.unknown
-    return scope.mistake("BB052", _unknown(name, scope), span)
+    if scope.findings.is_first((scope.path, span)):
+        return scope.mistake("BB052", _unknown(name, scope), span)
+    return scope.graph.unknown
 
 
 def _unknown(name: str, scope: Scope) -> str:

@@ -77,6 +77,8 @@ class Findings:
     """In the order of finding, each once though most expressions are elaborated for many robots."""
     wholes: list[tuple[Path, Span, str, Node]] = field(default_factory=list)
     """Values that must turn out to be whole numbers, and what for."""
+    seen: set[tuple[Path, Span]] = field(default_factory=set)
+    """Unknown names that were told of: the next robot's need no search for a near name."""
     entered: tuple[Path, Span] = ((), WHOLE)
     """The expression that was begun last."""
     unseen: list[str] = field(default_factory=list)
@@ -87,6 +89,12 @@ class Findings:
         self.mistakes[path, Mistake(code, message, span, advice)] = None
         if len(self.mistakes) >= MAX_MISTAKES:
             raise TooManyMistakesError
+
+    def is_first(self, place: tuple[Path, Span]) -> bool:
+        """Whether an unknown name is met for the first time."""
+        first = place not in self.seen
+        self.seen.add(place)
+        return first
 
     def told_below(self, path: Path) -> bool:
         """Whether there is a mistake at a path or below it."""
