@@ -158,7 +158,7 @@ class Maker:
     def made(self) -> bytes:
         """A spec as bytes, now and then not of UTF-8."""
         dice = self.dice
-        text = burden(dice) if dice.random() < 0.25 else damaged(dice.choice(self.specs), dice)
+        text = burden(dice) if dice.random() < 0.1 else damaged(dice.choice(self.specs), dice)
         if dice.random() < 0.02:
             return text.encode(dice.choice(("utf-16", "latin-1", "utf-8-sig")), errors="replace")
         return text.encode("utf-8", errors="surrogatepass")

@@ -8,15 +8,18 @@ import pytest
 import yaml
 
 import bbsd
-from bbsd.architecture import given_architecture
+from bbsd.architecture import Architecture, given_architecture
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import agents_of, interval, returns_of
+from bbsd.evaluation import agents_of, interval, returns_of, trace
 from bbsd.kernel.keys import keys
 from bbsd.report.figures import episode
 from bbsd.report.figures.files import color
 from bbsd.solver.random_agents import random_agents
+from bbsd.solver.run import generations, start
+from bbsd.solver.settings import settings_of
 
 SPECS = Path(__file__).parents[2] / "specs"
+ARMS = sorted(SPECS.glob("object_lifting_*.yaml"))
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
 
 
@@ -60,3 +63,69 @@ def test_every_start_of_the_grid_world_can_be_tried():
     found = bbsd.evaluate(SPECS / "grid_world_hand.yaml", exact=True)
     assert found.episodes == 6 * 3 * 4
     assert found.reward_terms["arrived"] > 18
+
+
+@pytest.mark.parametrize(
+    "path", [each for each in ARMS if each.stem != "object_lifting_hand"], ids=lambda path: path.stem
+)
+def test_an_arm_of_the_paper_is_designed(path):
+    small = [
+        "coevolution.generations=2",
+        "coevolution.agents=4",
+        "coevolution.population=3",
+        "learning.episodes=3",
+    ]
+    loaded = bbsd.load(path, overrides=[*(f"design.{each}" for each in small), "environment.steps=5"])
+    problem = compile_meaning(loaded.meaning, lanes=4, compiled=False)
+    settings = settings_of(loaded.meaning)
+    lived = generations(start(problem, settings, 0), problem, settings, 0, 1)
+    lines = [next(lived)[1] for _ in range(2)]
+    assert [line["generation"] for line in lines] == [1, 2]
+    assert set(lines[-1]["structure"]) == set(loaded.spec.behaviors)
+
+
+def test_the_arms_differ_from_the_task_in_what_they_say():
+    order, rules, value, no_culture, higher = (
+        bbsd.load(SPECS / f"object_lifting_{arm}.yaml")
+        for arm in ("order", "rules", "value", "no_culture", "robot_1_higher")
+    )
+    assert all(behavior.rules for behavior in order.spec.behaviors.values())
+    assert order.spec.structure is None
+    assert rules.spec.structure == bbsd.load(SPECS / "object_lifting_hand.yaml").spec.structure
+    assert not any(behavior.rules for behavior in rules.spec.behaviors.values())
+    assert value.spec.design.sharing == "value"
+    assert no_culture.spec.design.culture == "none"
+    assert starts_of(higher, "height") == [2.5, 2, 2]
+
+
+def starts_of(loaded, name):
+    """The values of a state, robot by robot, before anything happened."""
+    problem = compile_meaning(loaded.meaning, compiled=False)
+    still = trace(problem, idle(problem), key=1, generation=1)
+    return [still.values[name, robot, ()][0] for robot in range(still.robots)]
+
+
+def idle(problem):
+    return Architecture(tuple(0 * table.given for table in problem.tables), problem.candidates)
+
+
+def test_sonars_fail_from_generation_50_on():
+    """Half of the episodes have a sonar that reads 0 but for its noise, in all steps."""
+    loaded = bbsd.load(SPECS / "mobile_robot_failing_sonar.yaml", overrides=["environment.steps=20"])
+    problem = compile_meaning(loaded.meaning, compiled=False)
+    failed = {}
+    for generation in (49, 50):
+        bad = [failing(problem, key, generation) for key in range(24)]
+        failed[generation] = [each for each in bad if each is not None]
+    assert failed[49] == []
+    assert 6 < len(failed[50]) < 18
+    assert len(set(failed[50])) > 3
+
+
+def failing(problem, key, generation):
+    """The sonar that fails in an episode in which the robot stands still; None if none does."""
+    episode = trace(problem, idle(problem), key, generation)
+    bad = int(episode.values["bad", 0, ()][0])
+    near = [k for k in range(8) if max(map(abs, episode.values["sonar", 0, (k,)])) < 0.3]
+    assert near == ([] if bad < 0 else [bad])
+    return None if bad < 0 else bad

@@ -137,6 +137,7 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
         ("environment: {step: 3}", 'unexpected key "step"; did you mean "steps"?'),
         ("bbsd: 2", "this is a spec in version 2 of the language; only 1 is known"),
         ("name: 12", "name must be text, not 12"),
+        ("ends: speed > 3", 'unexpected key "ends" here'),
         ("environment: {state: {yes: 0}}", '"yes" is a word of the language and cannot be a name'),
     ],
 )
@@ -157,3 +158,34 @@ def test_a_wrong_number_of_robots_says_nothing_about_indices() -> None:
     assert codes("environment: {robots: many, sensors: {far: 'height[5] > 1'}, ends: height > 3}") == [
         "BB022"
     ]
+
+
+@pytest.mark.parametrize(
+    ("part", "advice"),
+    [
+        ("ends: speed > 3", "it belongs into environment"),
+        ("design: {candidates: 3}", "it belongs into design.learning or design.answer"),
+        ("environment: {rules: []}", "it belongs into a behavior"),
+        ("behaviors: {stop: {otherwise: halt}}", "the keys here: excited, inputs, actions, rules"),
+        ("structure: stop, go", "a list is written in brackets: [one, another]"),
+    ],
+)
+def test_advice_names_the_block_or_the_form_that_was_meant(part: str, advice: str) -> None:
+    (told,) = check(source(part))
+    assert told.advice == advice
+
+
+@pytest.mark.parametrize(
+    ("part", "code"),
+    [
+        ("behaviors: {stop: {inputs: [hight], rules: [{when: {height: true}, do: halt}]}}", "BB041"),
+        ("environment: {dynamics: {sped: 3}}", "BB033"),
+    ],
+)
+def test_what_only_follows_from_a_mistake_is_not_told(part: str, code: str) -> None:
+    assert codes(part) == [code]
+
+
+def test_what_need_not_be_whole_is_told_beside_inputs_that_were_not_understood() -> None:
+    told = codes("behaviors: {stop: {inputs: {a: tld > 1, b: 'values(speed / 2, 0, 3)'}}}")
+    assert sorted({*told} & {"BB052", "BB064"}) == ["BB052", "BB064"]
