@@ -166,7 +166,6 @@ def test_a_wrong_number_of_robots_says_nothing_about_indices() -> None:
         ("ends: speed > 3", "it belongs into environment"),
         ("design: {candidates: 3}", "it belongs into design.learning or design.answer"),
         ("environment: {rules: []}", "it belongs into a behavior"),
-        ("behaviors: {stop: {otherwise: halt}}", "the keys here: excited, inputs, actions, rules"),
         ("structure: stop, go", "a list is written in brackets: [one, another]"),
     ],
 )
