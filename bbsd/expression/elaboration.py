@@ -41,6 +41,9 @@ MAX_WHOLE_POWER = 64
 EXPRESSION_WORK = 5
 """The work of beginning an expression for a robot, beside that of its nodes."""
 
+COMPARISON_WORK = 5
+"""The work of a comparison, beside that of its nodes: long conditions repeat few nodes often."""
+
 
 def number(expr: Expr, scope: Scope) -> Node:
     """The expression as a number; anything else is a mistake."""
@@ -164,6 +167,7 @@ def _logical(expr: Logical, scope: Scope) -> Node:
 
 
 def _comparison(expr: Comparison, scope: Scope) -> Node:
+    scope.graph.spend(COMPARISON_WORK)
     nodes: list[Node] = []
     for operand in expr.operands:
         found = _value(operand, scope)

@@ -50,6 +50,11 @@ class Lineage:
         is_whole = EXTENDS not in self.documents[-1].data or self.documents[-1].data[EXTENDS] is None
         return is_whole and all(document.root for document in self.documents)
 
+    @property
+    def characters(self) -> int:
+        """The length of all the files' texts together."""
+        return sum(len(document.source.text) for document in self.documents)
+
     @cached_property
     def data(self) -> dict[str, Data]:
         """What the files say together."""

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bbsd.errors import SpecError
-from bbsd.spec.loading import MAX_SHOWN, check, load
+from bbsd.spec.loading import MAX_EXAMINED_TWICE, MAX_SHOWN, check, load
 from bbsd.text import Source, read
 from tests.unit.spec.specs import BASE, codes, messages, source
 
@@ -188,3 +188,10 @@ def test_what_only_follows_from_a_mistake_is_not_told(part: str, code: str) -> N
 def test_what_need_not_be_whole_is_told_beside_inputs_that_were_not_understood() -> None:
     told = codes("behaviors: {stop: {inputs: {a: tld > 1, b: 'values(speed / 2, 0, 3)'}}}")
     assert sorted({*told} & {"BB052", "BB064"}) == ["BB052", "BB064"]
+
+
+def test_in_a_large_spec_mistakes_of_form_are_told_first() -> None:
+    text = BASE.replace("robots: 3", "robots: many").replace("speed: 0\nreward", "speed: sped\nreward")
+    large = text + "#" * MAX_EXAMINED_TWICE
+    assert [each.code for each in check(Source("spec.yaml", text))] == ["BB022", "BB052"]
+    assert [each.code for each in check(Source("spec.yaml", large))] == ["BB022"]
