@@ -180,7 +180,7 @@ NEEDED_BY_ERROR = {
 def _needed(path: Path, error: ErrorDetails) -> str:
     field = field_at(path)
     if field and get_origin(field.annotation) is Literal:
-        return " or ".join(get_args(field.annotation))
+        return " or ".join(map(str, get_args(field.annotation)))
     if path[:1] == ("view",) and error["type"] == "not_an_expression":
         return "an expression or a list of them"
     if path and path[-1] in NEEDED_BY_KEY and error["type"] != "string_type":

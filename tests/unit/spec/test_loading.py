@@ -138,6 +138,8 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
         ("bbsd: 2", "this is a spec in version 2 of the language; only 1 is known"),
         ("name: 12", "name must be text, not 12"),
         ("ends: speed > 3", 'unexpected key "ends" here'),
+        ("design: {coevolution: {children: 3}}", "children must be 1 or 2, not 3"),
+        ("design: {coevolution: {children: two}}", 'children must be 1 or 2, not text "two"'),
         ("environment: {state: {yes: 0}}", '"yes" is a word of the language and cannot be a name'),
     ],
 )
