@@ -62,8 +62,18 @@ Spec = str | Path | Loaded
 """A spec's file, or one that is loaded."""
 
 
+MOST_OPEN_CELLS = 45_000
+"""Open cells of a spec to be designed: in the worst case each is named in a rule, and a spec has 50 000 values."""
+
+
 class NothingToDesign(UsageError):
     """A spec without holes."""
+
+
+class TooLargeToWrite(UsageError):
+    """A design with more rules than a spec may hold."""
+
+    advice = "cut the inputs of its largest behaviors more coarsely, or give some of their rules"
 
 
 class Interrupted(KeyboardInterrupt):
@@ -232,7 +242,7 @@ def design(
     The same spec, seed, runs and settings give the same bytes of `architecture.yaml` and `metrics.jsonl`,
     however often it was stopped and gone on with (`resume`), and for any number of lanes and of jobs: processes
     that do different runs, and threads inside a run where there are more jobs than runs. Raises NothingToDesign,
-    SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
+    TooLargeToWrite, SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
 
     An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes too
     long, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
@@ -256,7 +266,11 @@ def design(
             raise stopped from None
     folder.gather(runs)
     architecture = tidied(problem.meaning, judged.architecture)
-    text = designed_text(loaded, problem.meaning, architecture, overrides)
+    try:
+        text = designed_text(loaded, problem.meaning, architecture, overrides)
+    except ValueError:
+        message = f"the design has more rules than a spec may hold; what was learned is kept in {folder.path}"
+        raise TooLargeToWrite(message) from None
     folder.write_architecture(text)
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
     folder.write_note(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
@@ -290,6 +304,11 @@ def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
+    if problem.size.open_cells > MOST_OPEN_CELLS:
+        count = f"{problem.size.open_cells:,} open cells"
+        raise TooLargeToWrite(
+            f"{loaded.source.file} has {count}; rules for more than {MOST_OPEN_CELLS:,} cannot be written"
+        )
     return problem
 
 

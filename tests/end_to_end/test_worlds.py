@@ -78,7 +78,7 @@ def test_an_arm_of_the_paper_is_designed(path):
     loaded = bbsd.load(path, overrides=[*(f"design.{each}" for each in small), "environment.steps=5"])
     problem = compile_meaning(loaded.meaning, lanes=4, compiled=False)
     settings = settings_of(loaded.meaning)
-    lived = generations(start(problem, settings, 0), problem, settings, 0, 1)
+    lived = generations(start(problem, settings, 0, 0), problem, settings, 0)
     lines = [next(lived)[1] for _ in range(2)]
     assert [line["generation"] for line in lines] == [1, 2]
     assert set(lines[-1]["structure"]) == set(loaded.spec.behaviors)

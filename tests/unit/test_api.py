@@ -72,6 +72,27 @@ def test_what_was_designed_has_no_holes_and_earns_what_was_said(designed):
     assert not (found.folder / "again").exists()
 
 
+def test_a_design_that_could_not_be_written_is_refused_before_any_work(spec, tmp_path):
+    large = spec(
+        EXACT.replace("low: x < 3", "low: 'values(x, 0, 50000)'").replace(
+            ", rules: [{when: {low: true}, do: say}, otherwise: no action]", ""
+        )
+    )
+    with pytest.raises(bbsd.api.TooLargeToWrite, match="50,001 open cells"):
+        bbsd.api.design(large, out=tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_design_that_cannot_be_written_after_all_is_kept(spec, tmp_path, monkeypatch):
+    def refuse(*_):
+        raise ValueError("these data cannot be written")
+
+    monkeypatch.setattr(bbsd.api, "designed_text", refuse)
+    with pytest.raises(bbsd.api.TooLargeToWrite, match="what was learned is kept"):
+        bbsd.api.design(SPEC, out=tmp_path / "run")
+    assert (tmp_path / "run" / "checkpoint.npz").exists()
+
+
 def test_progress_is_told_after_every_generation(designed):
     _, told = designed
     assert [(each.run, each.generation) for each in told] == [
