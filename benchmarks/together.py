@@ -20,10 +20,11 @@ if TYPE_CHECKING:
 
 SHARE, SOON = 0.9, 2.0
 INTERRUPTED = 130
+LONG = ["--set", "design.coevolution.generations=2000"]
 STOPPED = {
-    "one run": [],
-    "four runs, one job": ["--runs", "4"],
-    "four runs, two jobs": ["--runs", "4", "--jobs", "2"],
+    "one run": LONG,
+    "four runs, one job": ["--runs", "4", *LONG],
+    "four runs, two jobs": ["--runs", "4", "--jobs", "2", *LONG],
     "episodes of 100,000 steps": ["--set", "environment.steps=100000"],
 }
 
