@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
+import gc
 import os
 import random
 import resource
@@ -22,6 +23,7 @@ from multiprocessing import Pipe, Process
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bbsd.cli.app import SELDOM
 from bbsd.errors import SpecError, render_json, render_text
 from bbsd.report.github import github_text
 from bbsd.report.sarif import sarif_log
@@ -178,6 +180,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     sys.dont_write_bytecode = True
+    gc.set_threshold(SELDOM)  # as the command does
     pipe, other = Pipe()
     Process(target=make, args=(options.seed, other), daemon=True).start()
     watch = Watch()

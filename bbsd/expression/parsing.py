@@ -30,6 +30,7 @@ MAX_LENGTH = 4000
 MAX_DEPTH = 40
 
 NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
+MEANINGLESS = re.compile(r"#|[^\n\t -~]")
 
 UNARY: dict[type[ast.unaryop], str] = {ast.USub: "-", ast.UAdd: "+", ast.Not: "not"}
 BINARY: dict[type[ast.operator], str] = {
@@ -92,9 +93,8 @@ def parse(text: str) -> Expr:
         )
     if not text.strip():
         raise _error("BB050", "an expression is missing here", 0, 1)
-    for place, character in enumerate(text):
-        if not (character.isascii() and (character.isprintable() or character in "\n\t")) or character == "#":
-            raise _error("BB050", f"the character {character!r} has no meaning in an expression", place, 1)
+    if odd := MEANINGLESS.search(text):
+        raise _error("BB050", f"the character {odd[0]!r} has no meaning in an expression", odd.start(), 1)
     flat = re.sub(r"[\n\t]", " ", text)
     stripped = flat.lstrip(" ")
     shift = len(flat) - len(stripped)
