@@ -52,6 +52,12 @@ class Families:
     def __post_init__(self) -> None:
         self._new = RobotGraph(self.robots)
 
+    def of_another_moment(self) -> Families:
+        """Families in the same graph that know nothing of this moment's."""
+        made = Families(self.robots, self.team_slots)
+        made._new = self._new
+        return made
+
     def know(self, families: Iterable[Sequence[Node]]) -> None:
         """Learn which nodes mean the same thing of different robots, whoever reads them."""
         for nodes in families:

@@ -42,16 +42,18 @@ def rolled(meaning: Meaning, written_out: int = MOST_WRITTEN_OUT) -> Meaning:
 
 
 def _episode(episode: Episode, robots: int) -> Episode:
+    # What is known before the decision must not be read from a family of values that depend on it, even if one robot's
+    # value happens to be the same.
     families = Families(robots, frozenset(_held_alike(episode)))
-    for group in (episode.start, episode.acted, episode.after, episode.definitions):
+    beginning, deciding = families.of_another_moment(), families.of_another_moment()
+    beginning.know(_by_place(episode.start).values())
+    for group in (episode.acted, episode.after, episode.definitions):
         families.know(_by_place(group).values())
-    start, after = _rolled(episode.start, families), _rolled(episode.after, families)
-    modules = tuple(_module(each, families) for each in episode.modules)
     return replace(
         episode,
-        modules=modules,
-        start=start,
-        after=after,
+        modules=tuple(_module(each, deciding) for each in episode.modules),
+        start=_rolled(episode.start, beginning),
+        after=_rolled(episode.after, families),
         acted=_met(episode.acted, families),
         definitions=_met(episode.definitions, families),
         choices=(families.each(episode.choices),),

@@ -22,6 +22,21 @@ AMONG_OTHERS = {
 TILT = {"tilt": "max(x[r] for r in team) - min(x[r] for r in team)", "twice": "2 * tilt"}
 
 CASES = {
+    # Whether the flag is up or not, the sensor of robot 2 is what all sensors are at the start, while flags are up.
+    "a start that is what one robot always has": {
+        "robots": 6,
+        "state": {"flag": "true"},
+        "left": {"actions": {"go": {"flag": "x > 0"}}},
+        "sensors": {"level": "1 + table[0][1] // (2 if flag else robot)"},
+        "dynamics": {"y": "level"},
+    },
+    "a decision by what one robot always has": {
+        "robots": 6,
+        "state": {"flag": "chance(0.5)"},
+        "left": {"actions": {"go": {"flag": "x > 0"}}, "excited": "1 + table[0][1] // 2 > table[0][2]"},
+        "sensors": {"level": "1 + table[0][1] // (2 if flag else robot)"},
+        "dynamics": {"y": "level"},
+    },
     "state without dynamics": {},
     "sensors": {"sensors": {"s": "x + y", "t": "s * 2"}, "dynamics": {"x": "x + s"}},
     "draws everywhere": {
