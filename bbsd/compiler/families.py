@@ -10,13 +10,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
-from bbsd.compiler.robot_graph import RobotGraph
 from bbsd.expression.graph import Level, Node
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from bbsd.compiler.robot_graph import Gathered
+    from bbsd.compiler.robot_graph import Gathered, RobotGraph
     from bbsd.spec.meaning.names import Slot
 
 FOLDS = frozenset({"+", "*", "minimum", "maximum", "&", "|"})
@@ -34,9 +33,10 @@ class CircularError(Exception):
 
 @dataclass
 class Families:
-    """Makes the nodes of a graph anew, a node for each family."""
+    """Makes the nodes of a moment anew, a node for each family."""
 
-    robots: int
+    new: RobotGraph
+    """Where the nodes are made; those of all moments of an episode in one."""
     team_slots: frozenset[tuple[str, tuple[int, ...]]]
     """Name and place of what all robots always hold alike: stored once."""
     found: dict[Key, Node] = field(default_factory=dict)
@@ -47,16 +47,6 @@ class Families:
     """Keys for which the short way did not do."""
     _apart: set[int] = field(default_factory=set)
     """Nodes of families that have nothing in common."""
-    _new: RobotGraph = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._new = RobotGraph(self.robots)
-
-    def of_another_moment(self) -> Families:
-        """Families in the same graph that know nothing of this moment's."""
-        made = Families(self.robots, self.team_slots)
-        made._new = self._new
-        return made
 
     def know(self, families: Iterable[Sequence[Node]]) -> None:
         """Learn which nodes mean the same thing of different robots, whoever reads them."""
@@ -64,7 +54,8 @@ class Families:
             key = self._key(nodes)
             if isinstance(key, tuple) and _are_alike(nodes):
                 for robot, node in enumerate(nodes):
-                    self._owners.setdefault(node.number, (key, robot))
+                    if node.level is Level.LANE:
+                        self._owners.setdefault(node.number, (key, robot))
 
     def team(self, node: Node) -> Node:
         """The new node of a value of the team. Raises CircularError."""
@@ -120,24 +111,24 @@ class Families:
             case "slot":
                 return (), lambda _: self._team_slot(node)
             case "choice":
-                return (), lambda _: self._new.of(self._new.choice(), cast("int", node.data))
+                return (), lambda _: self.new.of(self.new.choice(), cast("int", node.data))
         if not refused and node.number in self._owners and node.number not in self._apart:
             family, robot = self._owners[node.number]
             return (family,), lambda made: self._member(made[0], robot)
         spine = None if refused else self._spine(node)
         if spine is not None:
             return (spine,), lambda made: self._folded(node, made[0])
-        return [self._key([operand]) for operand in node.operands], lambda made: self._new.again([node], made)
+        return [self._key([operand]) for operand in node.operands], lambda made: self.new.again([node], made)
 
     def _team_slot(self, node: Node) -> Node:
         name, robot, place = cast("Slot", node.data)
         if robot is None or (name, place) in self.team_slots:
-            return self._new.slot(node, Level.LANE)
-        return self._new.of(self._new.slot(node, Level.EACH), robot)
+            return self.new.slot(node, Level.LANE)
+        return self.new.of(self.new.slot(node, Level.EACH), robot)
 
     def _member(self, family: Node, robot: int) -> Node | None:
         if family.level is Level.EACH:
-            return self._new.of(family, robot)
+            return self.new.of(family, robot)
         return family if family.level is not Level.ROBOT else None
 
     def _spine(self, node: Node) -> tuple[int, ...] | None:
@@ -145,12 +136,12 @@ class Families:
         if node.operation not in FOLDS:
             return None
         elements, rest = list[Node](), node
-        while rest.operation == node.operation and len(elements) < self.robots - 1:
+        while rest.operation == node.operation and len(elements) < self.new.robots - 1:
             rest, element = rest.operands
             elements.append(element)
         elements = [rest, *reversed(elements)]
         operations = {element.operation for element in elements}
-        if len(elements) < self.robots or len(operations) > 1:
+        if len(elements) < self.new.robots or len(operations) > 1:
             return None
         key = self._key(elements)
         return key if isinstance(key, tuple) else None
@@ -158,29 +149,27 @@ class Families:
     def _folded(self, node: Node, family: Node) -> Node | None:
         if family.level is not Level.EACH or family.operation == "each":
             return None
-        return self._new.over(family, node.operation)
+        return self.new.over(family, node.operation)
 
     # --- Families
 
     def _plan_of_each(self, nodes: Sequence[Node], *, refused: bool) -> Plan:
         first = nodes[0]
         if all(node.operation == "choice" for node in nodes):
-            return (), lambda _: self._new.other(
-                self._new.choice(), [cast("int", node.data) for node in nodes]
-            )
+            return (), lambda _: self.new.other(self.new.choice(), [cast("int", node.data) for node in nodes])
         if self._are_one_slot(nodes):
             robots = [cast("int", cast("Slot", node.data)[1]) for node in nodes]
-            return (), lambda _: self._new.other(self._new.slot(first, Level.EACH), robots)
+            return (), lambda _: self.new.other(self.new.slot(first, Level.EACH), robots)
         if not refused and (seen := self._seen_of(nodes)) is not None:
             family, robots = seen
             return (family,), lambda made: self._seen(made[0], robots)
         if all(node.literal for node in nodes):
-            return (), lambda _: self._new.varied("table", nodes)
+            return (), lambda _: self.new.varied("table", nodes)
         if all(node.operation == "constant" for node in nodes):
-            return (), lambda _: self._new.varied("pick", nodes)
+            return (), lambda _: self.new.varied("pick", nodes)
         if _are_alike(nodes):
             needs = [self._key(operands) for operands in zip(*(node.operands for node in nodes), strict=True)]
-            return needs, lambda made: self._new.again(nodes, made)
+            return needs, lambda made: self.new.again(nodes, made)
         return self._plan_one_by_one(nodes)
 
     def _are_one_slot(self, nodes: Sequence[Node]) -> bool:
@@ -202,12 +191,12 @@ class Families:
     def _seen(self, family: Node, robots: Sequence[int]) -> Node | None:
         if family.level is Level.ROBOT:
             return None
-        return self._new.other(family, robots) if family.level is Level.EACH else family
+        return self.new.other(family, robots) if family.level is Level.EACH else family
 
     def _plan_one_by_one(self, nodes: Sequence[Node]) -> Plan:
         """Each is computed as the team's, then every robot reads its own."""
         self._apart.update(node.number for node in nodes)
-        return [node.number for node in nodes], self._new.each
+        return [node.number for node in nodes], self.new.each
 
 
 def _are_alike(nodes: Sequence[Node]) -> bool:

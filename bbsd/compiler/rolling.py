@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.families import CircularError, Families
+from bbsd.compiler.robot_graph import RobotGraph
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -44,16 +45,17 @@ def rolled(meaning: Meaning, written_out: int = MOST_WRITTEN_OUT) -> Meaning:
 def _episode(episode: Episode, robots: int) -> Episode:
     # What is known before the decision must not be read from a family of values that depend on it, even if one robot's
     # value happens to be the same.
-    families = Families(robots, frozenset(_held_alike(episode)))
-    beginning, deciding = families.of_another_moment(), families.of_another_moment()
+    new, alike = RobotGraph(robots), frozenset(_held_alike(episode))
+    beginning, deciding, families = (Families(new, alike) for _ in range(3))
     beginning.know(_by_place(episode.start).values())
     for group in (episode.acted, episode.after, episode.definitions):
         families.know(_by_place(group).values())
+    after = _rolled(episode.after, families)
     return replace(
         episode,
         modules=tuple(_module(each, deciding) for each in episode.modules),
         start=_rolled(episode.start, beginning),
-        after=_rolled(episode.after, families),
+        after=after,
         acted=_met(episode.acted, families),
         definitions=_met(episode.definitions, families),
         choices=(families.each(episode.choices),),

@@ -3,6 +3,7 @@
 import pytest
 
 from bbsd.compiler.families import CircularError, Families
+from bbsd.compiler.robot_graph import RobotGraph
 from bbsd.expression.graph import Graph, Kind, Level, value_of
 
 ROBOTS = range(3)
@@ -36,13 +37,13 @@ def shown(node):
 
 
 def each(nodes, *known, team_slots=()):
-    families = Families(3, frozenset(team_slots))
+    families = Families(RobotGraph(3), frozenset(team_slots))
     families.know(known)
     return families.each(nodes)
 
 
 def team(node, *known, team_slots=()):
-    families = Families(3, frozenset(team_slots))
+    families = Families(RobotGraph(3), frozenset(team_slots))
     families.know(known)
     return families.team(node)
 
@@ -290,7 +291,7 @@ def test_deep_families_are_made_without_recursion(graph):
 
 
 def test_what_was_made_is_known(graph):
-    families = Families(3, frozenset())
+    families = Families(RobotGraph(3), frozenset())
     family = plus(graph, slots(graph, "x"), 1)
     assert families.known(family) is None
     made = families.each(plus(graph, family, 2))

@@ -96,6 +96,16 @@ CASES = {
         "sensors": {"a": "x if robot == 0 else x[0] + 1", "b": "a + 1"},
         "dynamics": {"y": "b"},
     },
+    "a start that sees another robot": {
+        "state": {"z": "x[2] * 2"},
+        "dynamics": {"y": "y + z"},
+    },
+    "a decision that is what one robot holds later": {
+        "state": {"w": 3},
+        "sensors": {"s": "w + (2 if armed else robot)"},
+        "right": {"excited": "w + 2 > 4"},
+        "dynamics": {"y": "s"},
+    },
     "numbers of robots": {
         "sensors": {"s": "robot * x + robot ** 2"},
         "dynamics": {"y": "y + robot / robots + s", "n": "(n + robot) % 3"},
