@@ -45,7 +45,7 @@ from bbsd.spec.loading import check as check_source
 from bbsd.spec.loading import load as load_source
 from bbsd.spec.meaning import Meaning, seed_key
 from bbsd.spec.overrides import read_overrides
-from bbsd.text import DELETE, Source, replace_blocks, without_relative_modeline
+from bbsd.text import DELETE, Source, UnwritableError, replace_blocks, without_relative_modeline
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from bbsd.compiler import DetailedOutcome
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
+    from bbsd.text import Data, DataPath, Deletion, Document
 
 EVALUATION = name_word("evaluation")
 EPISODES, EPISODES_AT_RANDOM = 1000, RANDOM_EPISODES
@@ -268,7 +269,7 @@ def design(
     architecture = tidied(problem.meaning, judged.architecture)
     try:
         text = designed_text(loaded, problem.meaning, architecture, overrides)
-    except ValueError:
+    except UnwritableError:
         message = f"the design has more rules than a spec may hold; what was learned is kept in {folder.path}"
         raise TooLargeToWrite(message) from None
     folder.write_architecture(text)
@@ -319,9 +320,22 @@ def designed_text(
 
     But for a comment that names an editor's schema by a relative path: in a run's folder that leads nowhere.
     """
-    given = {each.path: DELETE if each.value is None else each.value for each in read_overrides(overrides)}
-    changes = {**given, **spec_changes(meaning, architecture)}
-    return without_relative_modeline(replace_blocks(loaded.lineage.flat, changes, after="behaviors"))
+    flat = loaded.lineage.flat
+    changes = {**_set(flat, overrides), **spec_changes(meaning, architecture)}
+    return without_relative_modeline(replace_blocks(flat, changes, after="behaviors"))
+
+
+def _set(flat: Document, overrides: Sequence[str]) -> dict[DataPath, Data | Deletion]:
+    """What arguments change of a file, the later over the earlier; what is not there need not be deleted."""
+    changes: dict[DataPath, Data | Deletion] = {}
+    for each in read_overrides(overrides):
+        if each.value is not None:
+            changes[each.path] = each.value
+            continue
+        changes = {path: value for path, value in changes.items() if path[: len(each.path)] != each.path}
+        if flat.holds(each.path):
+            changes[each.path] = DELETE
+    return changes
 
 
 def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:

@@ -3,7 +3,7 @@
 from bbsd.text.document import Document
 from bbsd.text.modeline import without_relative_modeline
 from bbsd.text.nodes import Data, DataPath
-from bbsd.text.patch import DELETE, Deletion, replace_blocks
+from bbsd.text.patch import DELETE, Deletion, UnwritableError, replace_blocks
 from bbsd.text.reader import read
 from bbsd.text.source import Source
 from bbsd.text.writer import write
@@ -15,6 +15,7 @@ __all__ = [
     "Deletion",
     "Document",
     "Source",
+    "UnwritableError",
     "read",
     "replace_blocks",
     "without_relative_modeline",

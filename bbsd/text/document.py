@@ -31,6 +31,13 @@ class Document:
         data = data_of(self.root) if self.root else {}
         return data if isinstance(data, dict) else {}
 
+    def holds(self, path: DataPath) -> bool:
+        """Whether there is something at a path of keys and indices."""
+        node: Node | None = self.root
+        for segment in path:
+            node = None if node is None else child(node, segment)
+        return node is not None
+
     def place(
         self, path: DataPath, offset: int | None = None, on_key: bool = False, length: int = 1
     ) -> Place:

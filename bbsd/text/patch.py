@@ -28,6 +28,10 @@ class Deletion(Enum):
 DELETE: Final = Deletion.DELETE
 
 
+class UnwritableError(ValueError):
+    """Data that no text within the reader's bounds says."""
+
+
 def replace_blocks(
     document: Document, changes: Changes[DataPath, Data | Deletion], after: str | None = None
 ) -> str:
@@ -37,7 +41,7 @@ def replace_blocks(
     mapping, at the top level behind the key `after` if there is one. The result always reads as the data
     with those changes: where a change of the block alone cannot do that (it has an anchor that is used
     elsewhere, say), the block around it is written anew. Raises ValueError if the document has mistakes,
-    or a path does not fit it: there is a single value on its way, or nothing to delete.
+    or a path does not fit it: there is a single value on its way, or nothing to delete; UnwritableError.
     """
     if document.diagnoses:
         raise ValueError("a text with mistakes cannot be changed")
@@ -55,7 +59,7 @@ def _changed(document: Document, path: DataPath, value: Data | Deletion, after: 
             result = read(Source(document.source.file, text))
             if not result.diagnoses and _identity(result.data) == _identity(wanted):
                 return result
-    raise ValueError("these data cannot be written")
+    raise UnwritableError("these data cannot be written")
 
 
 def _identity(data: Data) -> str:

@@ -9,6 +9,7 @@ from bbsd.architecture import HolesLeft
 from bbsd.errors import SpecError
 from bbsd.evaluation import NotEnumerable
 from bbsd.solver.folder import FolderError
+from bbsd.text import UnwritableError
 
 SPEC = Path(__file__).parents[1] / "end_to_end" / "specs" / "thermostat.yaml"
 SEED = 2
@@ -85,12 +86,25 @@ def test_a_design_that_could_not_be_written_is_refused_before_any_work(spec, tmp
 
 def test_a_design_that_cannot_be_written_after_all_is_kept(spec, tmp_path, monkeypatch):
     def refuse(*_):
-        raise ValueError("these data cannot be written")
+        raise UnwritableError("these data cannot be written")
 
     monkeypatch.setattr(bbsd.api, "designed_text", refuse)
     with pytest.raises(bbsd.api.TooLargeToWrite, match="what was learned is kept"):
         bbsd.api.design(SPEC, out=tmp_path / "run")
     assert (tmp_path / "run" / "checkpoint.npz").exists()
+
+
+@pytest.mark.parametrize(
+    ("overrides", "kept"),
+    [
+        (["view=null"], False),
+        (["view.at=[warmth, 0]", "view=null"], False),
+        (["view=null", "view.at=[warmth, 0]"], True),
+    ],
+)
+def test_what_is_set_to_nothing_is_not_in_the_design(overrides, kept, tmp_path):
+    found = bbsd.api.design(SPEC, out=tmp_path / "run", overrides=overrides)
+    assert ("view:" in found.architecture.read_text()) is kept
 
 
 def test_progress_is_told_after_every_generation(designed):

@@ -120,3 +120,19 @@ def test_a_text_that_could_not_be_read_has_one_place() -> None:
     document = read(Source("s", "a: {"))
     assert document.place(("a", "b")) == Place("s", 1, 1, 1)
     assert document.data == {}
+
+
+@pytest.mark.parametrize(
+    ("path", "holds"),
+    [
+        ((), True),
+        (("bbsd",), True),
+        (("environment", "state", "speed"), True),
+        (("behaviors", "pull", "rules", 1), True),  # through an alias
+        (("behaviors", "pull", "rules", 2), False),
+        (("environment", "state", "sped"), False),
+        (("bbsd", "below"), False),
+    ],
+)
+def test_a_document_knows_what_it_holds(document: Document, path: DataPath, holds: bool) -> None:
+    assert document.holds(path) is holds
