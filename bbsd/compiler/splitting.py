@@ -77,11 +77,9 @@ def _cut(lines: list[str]) -> list[list[str]]:
         expensive, was_expensive = bool(COSTLY.search(line)), bool(COSTLY.search(before))
         turns = line.startswith(ACT) or expensive != was_expensive
         crowded = len({*seen, *SEEN.findall(line)}) > MOST_SEEN
-        if (
-            crowded
-            or len(parts[-1]) >= LONGEST
-            or (turns and len(parts[-1]) >= (1 if was_expensive else SHORTEST))
-        ):
+        long = len(parts[-1]) >= LONGEST
+        turns = turns and len(parts[-1]) >= (1 if was_expensive else SHORTEST)
+        if (crowded or long or turns) and not all(each.startswith("#") for each in parts[-1]):
             parts.append([])
             seen.clear()
         seen.update(SEEN.findall(line))

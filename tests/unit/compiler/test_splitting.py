@@ -128,3 +128,10 @@ def test_a_loop_reads_at_most_two_other_robots(frame):
         ["seen_3", "seen_2"],
         ["seen_4"],
     ]
+
+
+@pytest.mark.parametrize("before", [[], ["# Reward: what each robot earned goes to what controlled it."]])
+def test_no_loop_is_without_work(frame, before):
+    many = ("n0", "x[seen_1 + lane] + x[seen_2 + lane] + x[seen_3 + lane]", Kind.NUMBER)
+    parts = loops(block_of([*before, many, "x[lane] = n0"]), frame)
+    assert parts[0][: len(before) + 1] == [*before, f"n0 = {many[1]}"]
