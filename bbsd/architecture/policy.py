@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.behaviors import Module
+    from bbsd.spec.meaning.labels import Labels
 
 MAX_JOINT_CELLS = 200_000
 MOST_AT_ONCE = 2_000_000
@@ -39,7 +40,7 @@ class Dimension(NamedTuple):
     """What a dimension is called, its cells, and the behavior that was the first to need it."""
 
     name: str
-    cells: tuple[str, ...]
+    cells: Labels
     owner: str
 
 
@@ -65,7 +66,7 @@ class JointSpace:
     `effects` (n_actions + 1,) gives each action the lowest one that sets the same.
     """
 
-    dimensions: Mapping[str, tuple[str, ...]]
+    dimensions: Mapping[str, Labels]
     views: tuple[View, ...]
     first_actions: tuple[int, ...]
     effects: NDArray[np.uint16]
@@ -101,9 +102,9 @@ def joint_space(meaning: Meaning) -> JointSpace:
     return JointSpace(_named(seen.values()), views, _first_actions(modules), _effects(modules))
 
 
-def _named(dimensions: Iterable[Dimension]) -> dict[str, tuple[str, ...]]:
+def _named(dimensions: Iterable[Dimension]) -> dict[str, Labels]:
     """The cells of each dimension by its name, with the behavior's name where others are called the same."""
-    named: dict[str, tuple[str, ...]] = {}
+    named: dict[str, Labels] = {}
     for name, cells, owner in dimensions:
         named[name if name not in named else f"{name} of {owner}"] = cells
     return named

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.boxes import Box
+    from bbsd.spec.meaning.labels import Labels
     from bbsd.spec.meaning.rules import Inputs
     from bbsd.spec.models import Rule
     from bbsd.text import Data
@@ -105,7 +106,7 @@ def _written(rule: Rule) -> RuleData:
     return {"when": when, "do": rule.do}
 
 
-def cell_words(chosen: Sequence[int], cells: tuple[str, ...]) -> list[Data]:
+def cell_words(chosen: Sequence[int], cells: Labels) -> list[Data]:
     """Cells as a rule names them; of a cut, neighbors as one range."""
     bounds = _bounds(cells)
     if bounds is None:
@@ -120,8 +121,10 @@ def _datum(cell: str) -> Data:
     return int(cell) if WHOLE_NUMBER.fullmatch(cell) else cell
 
 
-def _bounds(cells: tuple[str, ...]) -> list[str] | None:
+def _bounds(cells: Labels) -> list[str] | None:
     """The bounds of a cut, read off its labels; None where a range of them would not be understood."""
+    if not cells[0].startswith("below "):
+        return None
     bounds = [cells[0].removeprefix("below "), *(cell.split(" to ", 1)[-1] for cell in cells[1:-1])]
     labels = [
         f"below {bounds[0]}",

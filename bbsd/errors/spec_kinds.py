@@ -289,6 +289,35 @@ SPEC_KINDS = (
         mend="reward:\n  near: 1 / max(height, 0.01)",
     ),
     Kind(
+        code="BB046",
+        title="a table that does not fit",
+        explanation=(
+            "A table has a character for each combination of its inputs' cells, the last input changing "
+            "fastest: . or 0 for no action, 1 to 9, a to z, A to Z and then accented letters for the "
+            "behavior's actions in their order, ? for open. White space only divides it."
+        ),
+        example='behaviors:\n  stop:\n    table: "1.1"      # reached is false or true',
+        mend='behaviors:\n  stop:\n    table: ".1"',
+    ),
+    Kind(
+        code="BB047",
+        title="both rules and a table",
+        explanation="A behavior's cells are given by rules or by a table, so one of the two must go.",
+        example='behaviors:\n  stop:\n    rules:\n      - otherwise: halt\n    table: ".1"',
+        mend="behaviors:\n  stop:\n    rules:\n      - otherwise: halt",
+    ),
+    Kind(
+        code="BB048",
+        title="a design that could not be written",
+        explanation=(
+            "What bbsd design writes is a spec again, within a spec's bounds: 1 MB, and 50 000 keys and values. "
+            "A design that would not fit is refused before it is begun. A cell takes a character, so there is "
+            "room for tables of about 900 000 cells together; drawn constants are written out as numbers."
+        ),
+        example="constants:\n  noise: list(list(uniform(0, 1) for k in range(300)) for i in range(300))",
+        mend="constants:\n  noise: list(list(uniform(0, 1) for k in range(100)) for i in range(100))",
+    ),
+    Kind(
         code="BB049",
         title="a view that cannot be drawn",
         explanation=(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
+from itertools import islice
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -10,6 +11,7 @@ if TYPE_CHECKING:
 
 LONGEST_GUESSED = 100  # difflib is quadratic, and no name is that long
 MOST_COMPARED = 60  # difflib is slow, and a hostile file has thousands of names and hundreds of mistakes
+MOST_KNOWN = 10_000  # cells of a partition, say
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
@@ -19,7 +21,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """
     if len(word) > LONGEST_GUESSED:
         return ""
-    names = _likely(word, list(known))
+    names = _likely(word, list(islice(known, MOST_KNOWN)))
     near = get_close_matches(word, names, n=1) or [name for name in names if _is_short_for(name, word)]
     return f'; did you mean "{near[0]}"?' if near else ""
 

@@ -115,7 +115,7 @@ TEXT_KINDS = (
     Kind(
         code="BB013",
         title="too long a text or number",
-        explanation="A text may have 10 000 characters, a number 100.",
+        explanation="A text may have 10 000 characters, but for a table, and a number 100.",
         example="mass: 1000000...      # a thousand digits",
         mend="mass: 1e6",
     ),

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.spec.meaning import Meaning
+    from bbsd.spec.meaning.labels import Labels
     from bbsd.spec.meaning.names import Slot
 
 EXPECTATION = ("", "failed", "held")
@@ -132,7 +133,7 @@ def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> 
     return Trace(steps, values, controlling, actions, rewards, robots, expectations)
 
 
-def _cells_of(problem: Problem, slot: Slot) -> tuple[str, ...]:
+def _cells_of(problem: Problem, slot: Slot) -> Labels:
     """The cells' names of a sensor that is a partition, as the behavior that sees it has them."""
     written = problem.meaning.spec.environment.sensors.get(slot[0])
     if written is None or not is_partition(written):

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.boxes import Box
+    from bbsd.spec.meaning.labels import Labels
     from bbsd.spec.meaning.rules import Inputs
 
 
@@ -40,7 +41,7 @@ def listed(words: Sequence[str], last: str) -> str:
     return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
-def _said(name: str, chosen: tuple[int, ...], cells: tuple[str, ...]) -> str:
+def _said(name: str, chosen: tuple[int, ...], cells: Labels) -> str:
     if cells == TRUTH_CELLS:
         return name if chosen == (1,) else f"not {name}"
     others = tuple(cell for cell in range(len(cells)) if cell not in chosen)
@@ -52,5 +53,5 @@ def _said(name: str, chosen: tuple[int, ...], cells: tuple[str, ...]) -> str:
     )
 
 
-def _words(chosen: Sequence[int], cells: tuple[str, ...]) -> list[str]:
+def _words(chosen: Sequence[int], cells: Labels) -> list[str]:
     return [str(word) for word in cell_words(chosen, cells)]

@@ -121,6 +121,10 @@ class Behavior(Part):
     rules: list[RuleText] | None = Field(
         None, description="What to do where; the first match decides. None: all open."
     )
+    table: str | None = Field(
+        None,
+        description="Instead of rules, a character for each cell; for tables that nobody reads as rules.",
+    )
     expects: ExpressionText | None = Field(
         None, description="What should hold after each step in which it controls; measured, never learned."
     )

@@ -54,6 +54,7 @@ STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
     ("behaviors", ANY, "actions"): {UNKNOWN: {}},
     ("behaviors", ANY, "actions", ANY): {},
     ("behaviors", ANY, "rules"): DELETE,
+    ("behaviors", ANY, "table"): DELETE,
     ("behaviors", ANY, "rules", ANY): {"when": {UNKNOWN: UNKNOWN}, "do": "open"},
     ("structure", ANY): "open",
     ("view",): DELETE,

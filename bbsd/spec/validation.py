@@ -151,11 +151,13 @@ def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
     needed = _needed(path, error)
     if error["input"] is None:
         return Mistake(code, f"{named(path)} has no value; it must be {needed}")
-    hint = ""
+    hint = advice = ""
     if error["type"] == "literal_error":
         hint = did_you_mean(str(error["input"]), needed.split(" or "))
-    listed = isinstance(error["input"], str) and needed.startswith("a list")
-    advice = "a list is written in brackets: [one, another]" if listed else ""
+    elif error["type"] == "string_type" and isinstance(error["input"], int | float):
+        advice = "put it in quotes"
+    elif isinstance(error["input"], str) and needed.startswith("a list"):
+        advice = "a list is written in brackets: [one, another]"
     return Mistake(code, f"{named(path)} must be {needed}, not {shown(error['input'])}{hint}", WHOLE, advice)
 
 

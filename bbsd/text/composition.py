@@ -13,6 +13,7 @@ from bbsd.text.events import Event, events
 from bbsd.text.keys import entries_of
 from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
 from bbsd.text.schema import is_text, meaning
+from bbsd.text.source import MAX_BYTES
 from bbsd.text.syntax import explain
 from bbsd.text.traps import NOTHING, Piece, comma_mistakes, empty_block_mistake, glued, join_at_commas
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 MAX_NODES = 50_000
 MAX_DEPTH = 40
 MAX_TEXT = 10_000
+TEXT_OF_A_NODE = 1000  # characters; a longer text counts as several values
+LONG_KEYS = frozenset({"table"})  # whose texts may be as long as the file
 MAX_NUMBER = 100
 TOO_DEEP = f"this is nested more than {MAX_DEPTH} levels deep"
 UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -117,42 +120,46 @@ def _not_a_mapping(reading: _Reading, root: Node, event: Event) -> Diagnosis:
     return reading.diagnosis("BB014", f"a spec is a mapping of keys to values, not {what}", event)
 
 
-def _node(reading: _Reading, event: Event, depth: int) -> Node:
+def _node(reading: _Reading, event: Event, depth: int, longest: int = MAX_TEXT) -> Node:
     if event.kind == "alias":
-        return _alias(reading, event, depth)
-    reading.count(event, 1, depth)
+        return _alias(reading, event, depth, longest)
+    reading.count(event, _size(event), depth)
     if event.tag is not None:
         negated = event.tag.lstrip("!") if event.tag.lstrip("!").isidentifier() else "..."
         advice = f'remove it; if an expression is meant, write "not {negated}"'
         reading.note("BB009", f'a spec has no tags such as "{event.tag}"', event, advice)
     if event.anchor is None:
-        return _unanchored(reading, event, depth)
-    return _anchored(reading, event, event.anchor, depth)
+        return _unanchored(reading, event, depth, longest)
+    return _anchored(reading, event, event.anchor, depth, longest)
 
 
-def _unanchored(reading: _Reading, event: Event, depth: int) -> Scalar | Sequence | Mapping:
+def _unanchored(reading: _Reading, event: Event, depth: int, longest: int) -> Scalar | Sequence | Mapping:
     match event.kind:
         case "scalar":
-            return _scalar(reading, event)
+            return _scalar(reading, event, longest)
         case "list":
             return _sequence(reading, event, depth)
         case _:
             return _mapping(reading, event, depth)
 
 
-def _anchored(reading: _Reading, event: Event, anchor: str, depth: int) -> Node:
-    size, deepest = reading.size - 1, reading.deepest
+def _anchored(reading: _Reading, event: Event, anchor: str, depth: int, longest: int) -> Node:
+    size, deepest = reading.size - _size(event), reading.deepest
     reading.anchors.pop(
         anchor, None
     )  # within the node its name means nothing, not an older node of that name
     reading.deepest = depth
-    node = _unanchored(reading, event, depth)
+    node = _unanchored(reading, event, depth, longest)
     reading.anchors[anchor] = _Anchored(node, reading.size - size, reading.deepest - depth)
     reading.deepest = max(deepest, reading.deepest)
     return node
 
 
-def _alias(reading: _Reading, event: Event, depth: int) -> Node:
+def _size(event: Event) -> int:
+    return 1 + len(event.text) // TEXT_OF_A_NODE
+
+
+def _alias(reading: _Reading, event: Event, depth: int, longest: int) -> Node:
     name = reading.source.text[event.start + 1 : event.end]
     anchored = reading.anchors.get(name)
     if anchored is None:
@@ -160,27 +167,41 @@ def _alias(reading: _Reading, event: Event, depth: int) -> Node:
         reading.note("BB010", f'no value before this one is marked with "&{name}"', event, advice)
         return Scalar(event.start, event.end, "", f"*{name}", f"*{name}")
     reading.count(event, anchored.size, depth + anchored.height)
+    if isinstance(anchored.node, Scalar) and len(anchored.node.text) > longest:
+        return _shortened(reading, anchored.node, event, longest)
     return Alias(event.start, event.end, anchored.node)
 
 
-def _scalar(reading: _Reading, event: Event) -> Scalar:
-    if len(event.text) > MAX_TEXT:
-        message = f"a text of {len(event.text)} characters; the longest may have {MAX_TEXT}"
-        reading.note("BB013", message, event)
-    data = event.text if event.style or event.tag else _meaning(reading, event)
-    scalar = Scalar(event.start, event.end, event.style, event.text, data)
+def _shortened(reading: _Reading, node: Scalar, event: Event, longest: int) -> Scalar:
+    """Return a text that is repeated where it is too long."""
+    text = _cut(reading, node.text, event, longest)
+    return Scalar(event.start, event.end, "*", text, text)
+
+
+def _scalar(reading: _Reading, event: Event, longest: int) -> Scalar:
+    text = _cut(reading, event.text, event, longest)
+    data = text if event.style or event.tag else _meaning(reading, event, text)
+    scalar = Scalar(event.start, event.end, event.style, text, data)
     if diagnosis := empty_block_mistake(reading.source, scalar):
         reading.mistakes.append(diagnosis)
     return scalar
 
 
-def _meaning(reading: _Reading, event: Event) -> str | int | float | bool | None:
-    if len(event.text) <= MAX_NUMBER:
-        return meaning(event.text)
-    if not is_text(event.text):
-        message = f"a number of {len(event.text)} characters; the longest may have {MAX_NUMBER}"
+def _cut(reading: _Reading, text: str, event: Event, longest: int) -> str:
+    """Return a text, or of one that is too long only so much that aliases cannot make work of it."""
+    if len(text) > longest:
+        message = f"a text of {len(text)} characters; the longest may have {longest}"
         reading.note("BB013", message, event)
-    return event.text
+    return text[:longest]
+
+
+def _meaning(reading: _Reading, event: Event, text: str) -> str | int | float | bool | None:
+    if len(text) <= MAX_NUMBER:
+        return meaning(text)
+    if not is_text(text):
+        message = f"a number of {len(text)} characters; the longest may have {MAX_NUMBER}"
+        reading.note("BB013", message, event, "put it in quotes, if a text is meant")
+    return text
 
 
 def _sequence(reading: _Reading, event: Event, depth: int) -> Sequence:
@@ -195,12 +216,17 @@ def _mapping(reading: _Reading, event: Event, depth: int) -> Mapping:
     pieces: list[Piece] = []
     while (item := next(reading.events)).kind != "end":
         key = _node(reading, item, depth + 1)
-        pieces.append((key, _node(reading, next(reading.events), depth + 1)))
+        pieces.append((key, _node(reading, next(reading.events), depth + 1, _longest(key))))
     # The parser's own end of a block lies behind the comments that follow it.
     end = item.end if event.flow else pieces[-1][1].end
     entries, mistakes = entries_of(reading.source, _meant(reading, event, pieces), event.flow)
     reading.mistakes += mistakes
     return Mapping(event.start, end, event.flow, entries)
+
+
+def _longest(key: Node) -> int:
+    """Return how long the text of a key's value may be."""
+    return MAX_BYTES if isinstance(key, Scalar) and key.text in LONG_KEYS else MAX_TEXT
 
 
 def _meant(reading: _Reading, event: Event, pieces: list[Piece]) -> list[Piece]:

@@ -62,8 +62,15 @@ class Document:
     def _whole(self, node: Node) -> Place:
         return self.source.place(node.start, node.end if isinstance(node, Scalar | Alias) else None)
 
+    @cached_property
+    def _offsets(self) -> dict[int, list[int]]:
+        """Where the characters of scalars stand, by the scalar's start: one may have many mistakes."""
+        return {}
+
     def _inside(self, scalar: Scalar, offset: int, length: int) -> Place:
-        offsets = source_offsets(self.source.text, scalar)
+        if scalar.start not in self._offsets:
+            self._offsets[scalar.start] = source_offsets(self.source.text, scalar)
+        offsets = self._offsets[scalar.start]
         first = min(max(offset, 0), len(offsets) - 1)
         last = min(first + length - 1, len(offsets) - 1)
         return self.source.place(offsets[first], offsets[last] + 1)

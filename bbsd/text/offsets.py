@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 BLANKS = frozenset(" \t\r\n\x85\u2028\u2029")
 PROPERTIES = r"(?:[&!]\S*\s+)*"
 OPENINGS = {"'": "'", '"': '"', "|": r"\|[^\r\n]*", ">": r">[^\r\n]*"}
-SPELLED_OUT = re.compile(r".", re.DOTALL)
 SPELLINGS = {
     "'": re.compile(r"''|.", re.DOTALL),
     '"': re.compile(r"\\(?:x..|u....|U........|.)|.", re.DOTALL),
@@ -55,8 +54,10 @@ def _pieces(text: str, scalar: Scalar) -> Iterator[tuple[int, str]]:
     opening = re.compile(PROPERTIES + OPENINGS.get(scalar.style, "")).match(text, scalar.start)
     start = opening.end() if opening else scalar.start
     end = scalar.end - (scalar.style in {"'", '"'})
-    for found in SPELLINGS.get(scalar.style, SPELLED_OUT).finditer(text, start, end):
-        yield found.start(), _spelled(found[0])
+    if spelling := SPELLINGS.get(scalar.style):
+        yield from ((found.start(), _spelled(found[0])) for found in spelling.finditer(text, start, end))
+    else:
+        yield from enumerate(text[start:end], start)
     yield end, ""
 
 

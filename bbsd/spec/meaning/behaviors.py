@@ -14,7 +14,8 @@ from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name, Span
 from bbsd.spec.meaning.names import alone
 from bbsd.spec.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
-from bbsd.spec.meaning.rules import Table, table
+from bbsd.spec.meaning.rules import Inputs, Table, table
+from bbsd.spec.meaning.symbols import table_of_text
 from bbsd.spec.models import When
 from bbsd.spec.written import Expression
 
@@ -37,7 +38,7 @@ class Module:
     """
 
     name: str
-    inputs: Mapping[str, tuple[str, ...]]
+    inputs: Inputs
     cells: tuple[tuple[Node, ...], ...]
     excited: tuple[Node, ...]
     actions: Mapping[str, Mapping[str, tuple[Node, ...]]]
@@ -60,7 +61,7 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
     if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
         names.findings.tell((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
     per_robot = [_inputs(written, decision, own, (*path, "inputs"), robot) for robot in names.robots]
-    inputs = {key: found.cells for key, found in per_robot[0].items()}
+    inputs: Inputs = {key: found.cells for key, found in per_robot[0].items()}
     if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
         message, advice = f"this table would have more than {MAX_CELLS} cells", "cut the inputs more coarsely"
         names.findings.tell((*path, "inputs"), "BB039", message, KEY, advice)
@@ -68,7 +69,7 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
     silent = {*names.unusable, *(set(written.inputs) - inputs.keys())}
     if isinstance(written.inputs, list) and names.findings.told_below((*path, "inputs")):
         silent |= _asked(written) - inputs.keys()
-    given = table(written.rules, inputs, list(actions), (*path, "rules"), names.findings, silent)
+    given = _given(written, inputs, path, names, silent)
     if any(len(found) < len(written.inputs) for found in per_robot):
         return None
     cells = tuple(tuple(found.index for found in robot.values()) for robot in per_robot)
@@ -78,6 +79,18 @@ def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, K
 def _asked(written: Behavior) -> set[str]:
     """What rules ask for; where a name in the list of inputs is wrong, it may be what was meant there."""
     return {name for rule in written.rules or () if isinstance(rule, When) for name in rule.when}
+
+
+def _given(written: Behavior, inputs: Inputs, path: Path, names: Names, silent: Collection[str]) -> Table:
+    """The cells that rules or a table give."""
+    actions, findings = list(written.actions), names.findings
+    if written.table is None:
+        return table(written.rules, inputs, actions, (*path, "rules"), findings, silent)
+    if written.rules is not None:
+        advice = "keep one of them; what a spec extends is taken away by rules: null or table: null"
+        findings.tell((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)
+    is_known = not silent and not findings.told_below((*path, "inputs"))
+    return table_of_text(written.table, inputs, actions, (*path, "table"), findings, is_known=is_known)
 
 
 def _excited(written: Behavior, own: Scope, path: Path, robot: int) -> Node:

@@ -18,12 +18,13 @@ from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
 from bbsd.spec.meaning.behaviors import Module, module
 from bbsd.spec.meaning.names import Moment, Names, Slot, Stored, alone, flat, moment, slot, slots_of
-from bbsd.spec.meaning.partitions import Partition, is_partition
+from bbsd.spec.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
 from bbsd.spec.meaning.picture import Picture, picture
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
+    from bbsd.spec.meaning.labels import Labels
     from bbsd.spec.written import Expression
 
 
@@ -49,7 +50,7 @@ class Episode:
     choices: tuple[Node, ...]
     reward: Mapping[str, tuple[Node, ...]]
     ends: Node | None
-    partitions: Mapping[str, tuple[str, ...]]
+    partitions: Mapping[str, Labels]
     """The cells of each sensor that is a partition."""
     expects: Mapping[str, tuple[Node, ...]]
     picture: Picture | None
@@ -65,8 +66,7 @@ def episode(names: Names) -> Episode | None:
     now = _slots(first, names)
     decision = _decision(now, beginning, names)
     kinds = {name: values[0].kind for name, values in first.items()}
-    found = [module(name, each, decision, kinds) for name, each in names.spec.behaviors.items()]
-    modules = tuple(each for each in found if each is not None)
+    modules = tuple(_modules(names, decision, kinds))
     if sum(len(each.actions) for each in modules) > MAX_ACTIONS_IN_ALL:
         message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
         names.findings.tell(("behaviors",), "BB038", message, KEY)
@@ -93,12 +93,26 @@ def episode(names: Names) -> Episode | None:
         expects=_expects(outcome, decision),
         picture=_picture(first, beginning, names),
     )
-    return meant if len(modules) == len(found) else None
+    return meant if len(modules) == len(names.spec.behaviors) else None
 
 
 def _after(scope: Scope, decision: Moment) -> Scope:
     """A scope in which `before(e)` is e as it was for the decision."""
     return replace(scope, before=decision.scope)
+
+
+def _modules(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Iterator[Module]:
+    """The behaviors that could be understood, up to the one with which their tables are too large together."""
+    n_cells = 0
+    for name, written in names.spec.behaviors.items():
+        found = module(name, written, decision, kinds)
+        if found is not None:
+            yield found
+        n_cells += found.n_cells if found else 0
+        if n_cells > MAX_CELLS_IN_ALL:
+            message = f"from here on, all tables together have more than {MAX_CELLS_IN_ALL:,} cells"
+            names.findings.tell(("behaviors", name, "inputs"), "BB039", message, KEY)
+            return
 
 
 def _start(names: Names) -> Stored:

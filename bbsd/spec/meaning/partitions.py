@@ -12,6 +12,7 @@ from bbsd.expression.mistakes import KEY
 from bbsd.expression.text import render
 from bbsd.expression.tree import Call, Name, Span
 from bbsd.spec.meaning.coverage import covers_everything
+from bbsd.spec.meaning.labels import Labels, Numbers
 from bbsd.spec.models import OTHERWISE, PartitionText
 
 if TYPE_CHECKING:
@@ -20,13 +21,14 @@ if TYPE_CHECKING:
 
 TRUTH_CELLS = ("false", "true")
 MAX_CELLS = 1_000_000
+MAX_CELLS_IN_ALL = 10_000_000
 
 
 @dataclass(frozen=True, slots=True)
 class Partition:
     """Labels of the cells in order, and the node of the index of the cell that holds."""
 
-    cells: tuple[str, ...]
+    cells: Labels
     index: Node
 
 
@@ -112,8 +114,7 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
         return None
     graph = scope.graph
     offset = graph.apply("-", number, graph.number(first)) if first else number
-    labels = tuple(str(value) for value in range(first, last + 1))
-    return Partition(labels, graph.apply("clamp_index", offset, data=last - first))
+    return Partition(Numbers(first, last), graph.apply("clamp_index", offset, data=last - first))
 
 
 def _named(written: dict[str, Expression], scope: Scope, path: Path, robot: int | None) -> Partition | None:

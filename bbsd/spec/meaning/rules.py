@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.spec.meaning.labels import Labels
 from bbsd.spec.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ NO_ACTION = 0
 MAX_LOOKED_AT = 30_000_000
 OTHER_TRUTHS = {"yes": "true", "on": "true", "1": "true", "no": "false", "off": "false", "0": "false"}
 
-Inputs = Mapping[str, tuple[str, ...]]
+Inputs = Mapping[str, Labels]
 """Each input's cells, in the order of the table's dimensions."""
 
 
@@ -119,7 +120,7 @@ def _inputs_named(inputs: Inputs) -> str:
 
 
 def _cells_matched(
-    name: str, cells: tuple[str, ...], when: Mapping[str, list[str]], path: Path, findings: Findings
+    name: str, cells: Labels, when: Mapping[str, list[str]], path: Path, findings: Findings
 ) -> Sequence[int] | None:
     if name not in when:
         return range(len(cells))
@@ -133,12 +134,12 @@ def _cells_matched(
     return sorted({cell for found in named for cell in found or ()})
 
 
-def _cell_meant(word: str, cells: tuple[str, ...]) -> str:
+def _cell_meant(word: str, cells: Labels) -> str:
     truth = OTHER_TRUTHS.get(word.lower(), "")
     return f'; did you mean "{truth}"?' if truth in cells else did_you_mean(word, cells)
 
 
-def _cells_advice(cells: tuple[str, ...]) -> str:
+def _cells_advice(cells: Labels) -> str:
     shown = ", ".join(cells[:12])
     return f"its cells: {shown}{', ...' if len(cells) > 12 else ''}"
 
@@ -146,7 +147,7 @@ def _cells_advice(cells: tuple[str, ...]) -> str:
 RANGE = re.compile(r"below (?P<below>.+)|from (?P<from>.+)|(?P<low>.+?) to (?P<high>.+)")
 
 
-def _cells(word: str, cells: tuple[str, ...]) -> range | None:
+def _cells(word: str, cells: Labels) -> range | None:
     """The cells a word names: one, or a range of the cells of a cut."""
     if word in cells:
         return range(cells.index(word), cells.index(word) + 1)
@@ -163,7 +164,7 @@ def _cells(word: str, cells: tuple[str, ...]) -> range | None:
     return range(first, last) if first < last else None
 
 
-def _bounds(cells: tuple[str, ...]) -> list[str] | None:
+def _bounds(cells: Labels) -> list[str] | None:
     """The bounds of a cut, read off its cells."""
     if not (len(cells) >= 2 and cells[0].startswith("below ") and cells[-1].startswith("from ")):
         return None
