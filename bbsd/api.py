@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from bbsd.architecture import Architecture, given_architecture, spec_changes, tidied
+from bbsd.architecture import designed_text, given_architecture, require_writable, tidied
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.frame import Detail
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -43,9 +43,8 @@ from bbsd.solver.settings import settings_of
 from bbsd.spec.loading import Loaded
 from bbsd.spec.loading import check as check_source
 from bbsd.spec.loading import load as load_source
-from bbsd.spec.meaning import Meaning, seed_key
-from bbsd.spec.overrides import read_overrides
-from bbsd.text import DELETE, Source, UnwritableError, replace_blocks, without_relative_modeline
+from bbsd.spec.meaning import seed_key
+from bbsd.text import Source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -63,18 +62,8 @@ Spec = str | Path | Loaded
 """A spec's file, or one that is loaded."""
 
 
-MOST_OPEN_CELLS = 45_000
-"""Open cells of a spec to be designed: in the worst case each is named in a rule, and a spec has 50 000 values."""
-
-
 class NothingToDesign(UsageError):
     """A spec without holes."""
-
-
-class TooLargeToWrite(UsageError):
-    """A design with more rules than a spec may hold."""
-
-    advice = "cut the inputs of its largest behaviors more coarsely, or give some of their rules"
 
 
 class Interrupted(KeyboardInterrupt):
@@ -243,7 +232,7 @@ def design(
     The same spec, seed, runs and settings give the same bytes of `architecture.yaml` and `metrics.jsonl`,
     however often it was stopped and gone on with (`resume`), and for any number of lanes and of jobs: processes
     that do different runs, and threads inside a run where there are more jobs than runs. Raises NothingToDesign,
-    TooLargeToWrite, SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
+    SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
 
     An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes too
     long, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
@@ -267,12 +256,7 @@ def design(
             raise stopped from None
     folder.gather(runs)
     architecture = tidied(problem.meaning, judged.architecture)
-    try:
-        text = designed_text(loaded, problem.meaning, architecture, overrides)
-    except UnwritableError:
-        message = f"the design has more rules than a spec may hold; what was learned is kept in {folder.path}"
-        raise TooLargeToWrite(message) from None
-    folder.write_architecture(text)
+    folder.write_architecture(designed_text(loaded, architecture))
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
     folder.write_note(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
     seconds = time.monotonic() - began
@@ -305,37 +289,8 @@ def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
-    if problem.size.open_cells > MOST_OPEN_CELLS:
-        count = f"{problem.size.open_cells:,} open cells"
-        raise TooLargeToWrite(
-            f"{loaded.source.file} has {count}; rules for more than {MOST_OPEN_CELLS:,} cannot be written"
-        )
+    require_writable(loaded)
     return problem
-
-
-def designed_text(
-    loaded: Loaded, meaning: Meaning, architecture: Architecture, overrides: Sequence[str] = ()
-) -> str:
-    """The designer's file with what was set and its holes filled; everything else is as it was.
-
-    But for a comment that names an editor's schema by a relative path: in a run's folder that leads nowhere.
-    """
-    flat = loaded.lineage.flat
-    changes = {**_set(flat, overrides), **spec_changes(meaning, architecture)}
-    return without_relative_modeline(replace_blocks(flat, changes, after="behaviors"))
-
-
-def _set(flat: Document, overrides: Sequence[str]) -> dict[DataPath, Data | Deletion]:
-    """What arguments change of a file, the later over the earlier; what is not there need not be deleted."""
-    changes: dict[DataPath, Data | Deletion] = {}
-    for each in read_overrides(overrides):
-        if each.value is not None:
-            changes[each.path] = each.value
-            continue
-        changes = {path: value for path, value in changes.items() if path[: len(each.path)] != each.path}
-        if flat.holds(each.path):
-            changes[each.path] = DELETE
-    return changes
 
 
 def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:

@@ -1,6 +1,7 @@
 """What was given or learned: an architecture, what it does in every situation, and how a spec says it."""
 
 from bbsd.architecture.architecture import Architecture, HolesLeft, given_architecture, holes
+from bbsd.architecture.document import designed_text, require_writable
 from bbsd.architecture.policy import JointSpace, behavior_keys, joint_space, policy
 from bbsd.architecture.rules import rules_of
 from bbsd.architecture.tidy import tidied
@@ -11,10 +12,12 @@ __all__ = [
     "HolesLeft",
     "JointSpace",
     "behavior_keys",
+    "designed_text",
     "given_architecture",
     "holes",
     "joint_space",
     "policy",
+    "require_writable",
     "rules_of",
     "spec_changes",
     "tidied",

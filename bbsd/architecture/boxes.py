@@ -74,7 +74,7 @@ def _best(values: list[int], wanted: dict[int, int], free: int, sizes: Sequence[
         for order in _orders(len(sizes))
     ]
     grown = [(value, box, _cells_in(box, sizes)) for value, box in dict.fromkeys(found)]
-    return max(grown, key=lambda each: ((each[2] & wanted[each[0]]).bit_count(), -_length(each[1], sizes)))
+    return max(grown, key=lambda each: ((each[2] & wanted[each[0]]).bit_count(), -n_words(each[1], sizes)))
 
 
 def _orders(n_inputs: int) -> list[tuple[int, ...]]:
@@ -117,7 +117,7 @@ def _cells_in(box: Box, sizes: Sequence[int]) -> int:
     return cells
 
 
-def _length(box: Box, sizes: Sequence[int]) -> int:
+def n_words(box: Box, sizes: Sequence[int]) -> int:
     """How long the box is in words: itself, and the cells of each input that has to be named."""
     return 1 + sum(len(chosen) for chosen, size in zip(box, sizes, strict=True) if len(chosen) < size)
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.architecture.boxes import FREE, KEEP, cover
+from bbsd.architecture.boxes import FREE, KEEP, cover, n_words
 from bbsd.expression.scope import Findings
 from bbsd.spec.meaning.partitions import TRUTH_CELLS
 from bbsd.spec.meaning.rules import OPEN_CELL
@@ -33,18 +34,23 @@ WHOLE_NUMBER = re.compile(r"0|-?[1-9][0-9]{0,14}")
 
 
 def rules_of(
-    table: NDArray[np.uint8], inputs: Inputs, actions: Sequence[str], given: Sequence[Rule] = ()
-) -> list[RuleData]:
+    table: NDArray[np.uint8],
+    inputs: Inputs,
+    actions: Sequence[str],
+    given: Sequence[Rule] = (),
+    most_words: float = inf,
+) -> list[RuleData] | None:
     """A table as a short list of rules that decide every cell as the table does, the first match first.
 
     Rules that the designer gave are kept, and further ones put where the first rule stands that leaves its
-    cells open; at the end, if none does.
+    cells open; at the end, if none does. None where the further ones would have more words than wanted.
 
     Args:
         table: (n_cells,), 0 for No Action, k for the k-th action.
         inputs: each input's cells, in the order of the table's dimensions.
         actions: the actions' names.
         given: rules that agree with the table and leave a cell open at least.
+        most_words: decisions and named cells, counted together.
     """
     first = next((place for place, rule in enumerate(given) if _decision(rule) == OPEN), len(given))
     before, after = given[:first], [rule for rule in given[first:] if _decision(rule) != OPEN]
@@ -59,6 +65,8 @@ def rules_of(
         values[is_open & (table == default)] = KEEP
         last = [{"otherwise": words[default]}]
     designed = cover(values, sizes_of(inputs))
+    if n_words_of(designed, inputs) > most_words:
+        return None
     rules: list[RuleData] = [{"when": conditions(box, inputs), "do": words[value]} for box, value in designed]
     return [*map(_written, before), *rules, *last, *map(_written, after)]
 
@@ -68,6 +76,11 @@ def boxes_of(table: NDArray[np.uint8], inputs: Inputs) -> tuple[list[tuple[Box, 
     default = most_common(table)
     values = np.where(table == default, KEEP, table.astype(np.int64))
     return cover(values, sizes_of(inputs)), default
+
+
+def n_words_of(boxes: Sequence[tuple[Box, int]], inputs: Inputs) -> int:
+    """How many decisions and cells the rules for some boxes name."""
+    return sum(n_words(box, sizes_of(inputs)) for box, _ in boxes)
 
 
 def most_common(decisions: NDArray[np.uint8]) -> int:

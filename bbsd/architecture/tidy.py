@@ -12,7 +12,7 @@ import numpy as np
 
 from bbsd.architecture.architecture import Architecture
 from bbsd.architecture.policy import decisions, joint_space, own_cells
-from bbsd.architecture.rules import most_common, rules_of
+from bbsd.architecture.rules import boxes_of, most_common
 from bbsd.spec.meaning.rules import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
@@ -59,5 +59,5 @@ def _shortest(module: Module, table: NDArray[np.uint8], matters: NDArray[np.bool
         return table
     common = np.uint8(most_common(table[matters])) if matters.any() else np.uint8(NO_ACTION)
     tidy = np.where(free, common, table)
-    lengths = [len(rules_of(each, module.inputs, [*module.actions])) for each in (tidy, table)]
+    lengths = [len(boxes_of(each, module.inputs)[0]) for each in (tidy, table)]
     return tidy if lengths[0] <= lengths[1] else table

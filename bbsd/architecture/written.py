@@ -6,41 +6,58 @@ from typing import TYPE_CHECKING
 
 from bbsd.architecture.rules import rules_of
 from bbsd.architecture.settled import settled_constants
+from bbsd.spec.meaning.symbols import filled_text, text_of_table
 from bbsd.spec.models import OPEN
+from bbsd.text import DELETE
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from bbsd.architecture.architecture import Architecture
     from bbsd.spec.meaning import Meaning
-    from bbsd.text import Data, DataPath
+    from bbsd.spec.meaning.behaviors import Module
+    from bbsd.spec.models import Behavior
+    from bbsd.text import Data, DataPath, Deletion
+
+MOST_WORDS = 3000
+"""Of the rules of a behavior: some five hundred rules, a tenth of a second to read. Beyond that nobody reads them."""
+NO_WORDS = -1
+"""Not even one rule."""
 
 
-def spec_changes(meaning: Meaning, architecture: Architecture) -> dict[DataPath, Data]:
+def spec_changes(
+    meaning: Meaning, architecture: Architecture, most_words: int = MOST_WORDS
+) -> dict[DataPath, Data | Deletion]:
     """What to write where, so that the spec has no holes, needs no seed, and means this architecture.
 
-    Only what is open is filled: rules of behaviors with open cells, a structure with open layers, and
-    constants that were drawn.
+    Only what is open is filled: behaviors with open cells, a structure with open layers, and constants that
+    were drawn. What was given as a table stays one; other behaviors get rules, or a table where rules would
+    have more than `most_words` decisions and named cells.
     """
-    return {
-        **settled_constants(meaning),
-        **_rules(meaning, architecture),
-        **_structure(meaning, architecture),
-    }
-
-
-def _rules(meaning: Meaning, architecture: Architecture) -> dict[DataPath, Data]:
     modules = zip(meaning.episode.modules, architecture.tables, strict=True)
-    return {
-        ("behaviors", module.name, "rules"): [
-            *rules_of(
-                table, module.inputs, [*module.actions], meaning.spec.behaviors[module.name].rules or ()
-            )
-        ]
-        for index, (module, table) in enumerate(modules)
-        if module.table.is_open and meaning.structure.may_hold(index)
-    }
+    behaviors: dict[DataPath, Data | Deletion] = {}
+    for index, (module, table) in enumerate(modules):
+        if module.table.is_open and meaning.structure.may_hold(index):
+            found = _cells(module, meaning.spec.behaviors[module.name], table, most_words)
+            behaviors |= {("behaviors", module.name, key): value for key, value in found.items()}
+    return {**settled_constants(meaning), **behaviors, **_structure(meaning, architecture)}
 
 
-def _structure(meaning: Meaning, architecture: Architecture) -> dict[DataPath, Data]:
+def _cells(
+    module: Module, written: Behavior, table: NDArray[np.uint8], most_words: int
+) -> dict[str, Data | Deletion]:
+    """What to write under a behavior's keys for its cells."""
+    if written.table is not None:
+        return {"table": filled_text(written.table, table.tolist())}
+    rules = rules_of(table, module.inputs, [*module.actions], written.rules or (), most_words)
+    if rules is not None:
+        return {"rules": [*rules]}
+    removed: dict[str, Data | Deletion] = {"rules": DELETE} if written.rules is not None else {}
+    return removed | {"table": text_of_table(table.tolist(), module.inputs)}
+
+
+def _structure(meaning: Meaning, architecture: Architecture) -> dict[DataPath, Data | Deletion]:
     given = meaning.spec.structure
     if given is not None and OPEN not in given:
         return {}

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.architecture.boxes import FREE, KEEP, cover
-from bbsd.architecture.rules import cell_words, sizes_of
+from bbsd.architecture.rules import cell_words, n_words_of, sizes_of
+from bbsd.architecture.written import MOST_WORDS
 from bbsd.spec.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
@@ -31,9 +32,13 @@ def condition(box: Box, inputs: Inputs) -> str:
 
 
 def places(where: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
-    """Conditions that together hold in all cells of `where` and in no other that is not `allowed`; both (n_cells,)."""
+    """Conditions that together hold in all cells of `where` and in no other that is not `allowed`; both (n_cells,).
+
+    None where they would name more cells than anybody reads.
+    """
     values = np.where(where, 0, np.where(allowed, FREE, KEEP))
-    return tuple(condition(box, inputs) for box, _ in cover(values, sizes_of(inputs)))
+    boxes = cover(values, sizes_of(inputs))
+    return () if n_words_of(boxes, inputs) > MOST_WORDS else tuple(condition(box, inputs) for box, _ in boxes)
 
 
 def listed(words: Sequence[str], last: str) -> str:
@@ -44,13 +49,20 @@ def listed(words: Sequence[str], last: str) -> str:
 def _said(name: str, chosen: tuple[int, ...], cells: Labels) -> str:
     if cells == TRUTH_CELLS:
         return name if chosen == (1,) else f"not {name}"
-    others = tuple(cell for cell in range(len(cells)) if cell not in chosen)
-    words, missing = _words(chosen, cells), _words(others, cells)
-    if len(missing) >= len(words):
+    words = _words(chosen, cells)
+    missing = (
+        _words(sorted(set(range(len(cells))).difference(chosen)), cells) if _is_most(chosen, cells) else []
+    )
+    if not missing or len(missing) >= len(words):
         return f"{name} is {listed(words, 'or')}"
     return (
         f"{name} is not {missing[0]}" if len(missing) == 1 else f"{name} is neither {listed(missing, 'nor')}"
     )
+
+
+def _is_most(chosen: tuple[int, ...], cells: Labels) -> bool:
+    """Whether the other cells may be said in fewer words: there are fewer, or they lie between chosen ones."""
+    return 2 * len(chosen) > len(cells) or (chosen[0] == 0 and chosen[-1] == len(cells) - 1)
 
 
 def _words(chosen: Sequence[int], cells: Labels) -> list[str]:

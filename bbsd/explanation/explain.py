@@ -9,7 +9,8 @@ import numpy as np
 
 from bbsd.architecture.boxes import first_match
 from bbsd.architecture.policy import controlling, decisions, joint_space, own_cells
-from bbsd.architecture.rules import boxes_of, sizes_of
+from bbsd.architecture.rules import boxes_of, n_words_of, sizes_of
+from bbsd.architecture.written import MOST_WORDS
 from bbsd.explanation.conditions import condition, places
 from bbsd.explanation.vocabulary import Entry, actions_of, inputs_of
 from bbsd.spec.models import NO_ACTION_TEXT
@@ -33,12 +34,22 @@ class RuleInWords:
 
 
 @dataclass(frozen=True, slots=True)
+class CellsInWords:
+    """In how many cells of a table something is done."""
+
+    decision: str
+    cells: int
+
+
+@dataclass(frozen=True, slots=True)
 class LayerInWords:
     """A layer and its behavior.
 
-    Of the rules the first that holds decides; the last one's condition is always ''. Where layers above always
-    prevent the behavior, `overruled` says where (apart from rules that are overruled as a whole), `effective` where it
-    may control, `overruled_by` who prevents it, highest first. `cells` counts the joint cells in which it controls.
+    Of the rules the first that holds decides; the last one's condition is always ''. There are none, but what is
+    `counted`, where they would be more than anybody reads. Where layers above always prevent the behavior, `overruled`
+    says where (apart from rules that are overruled as a whole), `effective` where it may control, each none where that
+    is too much to say, `overruled_by` who prevents it, highest first. `cells` counts the joint cells in which it
+    controls.
     """
 
     layer: int
@@ -46,6 +57,7 @@ class LayerInWords:
     excited: str | None
     expects: str | None
     rules: tuple[RuleInWords, ...]
+    counted: tuple[CellsInWords, ...]
     overruled: tuple[str, ...]
     effective: tuple[str, ...]
     overruled_by: tuple[str, ...]
@@ -54,7 +66,8 @@ class LayerInWords:
     @property
     def acts(self) -> bool:
         """Whether the behavior has an action anywhere."""
-        return any(rule.decision != NO_ACTION_TEXT for rule in self.rules)
+        decisions = [rule.decision for rule in self.rules] + [cells.decision for cells in self.counted]
+        return any(decision != NO_ACTION_TEXT for decision in decisions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +142,7 @@ def _layer(
         excited=_said(written.excited),
         expects=_said(written.expects),
         rules=rules,
+        counted=() if rules else _counted(module, table),
         overruled=places(lost & ~whole, whole | ~control.acts, module.inputs),
         effective=places(control.controls, ~control.acts, module.inputs) if lost.any() else (),
         overruled_by=tuple(names[other] for other in above),
@@ -162,17 +176,26 @@ def _any_of(cells: NDArray[np.int64], n_cells: int) -> NDArray[np.bool_]:
 def _rules(
     module: Module, table: NDArray[np.uint8], control: _Control
 ) -> tuple[tuple[RuleInWords, ...], NDArray[np.bool_]]:
-    """A behavior's rules, and the cells of those that are always overruled as a whole."""
+    """A behavior's rules, if they can be read, and the cells of those that are always overruled as a whole."""
     boxes, default = boxes_of(table, module.inputs)
     words, sizes = (NO_ACTION_TEXT, *module.actions), sizes_of(module.inputs)
     whole, rules = np.zeros(len(table), bool), []
-    elsewhere = first_match([box for box, _ in boxes], sizes) < 0
-    held = [
-        (condition(box, module.inputs), decision, first_match([box], sizes) == 0) for box, decision in boxes
-    ]
-    for where, decision, cells in [*held, ("", default, elsewhere)]:
-        acting = cells & (table == decision) & control.acts
-        overruled = bool(acting.any() and not control.controls[acting].any())
-        whole |= acting & overruled
+    if n_words_of(boxes, module.inputs) > MOST_WORDS:
+        return (), whole
+    cells = np.arange(len(table)).reshape(sizes)
+    elsewhere = np.flatnonzero(first_match([box for box, _ in boxes], sizes) < 0)
+    held = [(condition(box, module.inputs), decision, cells[np.ix_(*box)].ravel()) for box, decision in boxes]
+    for where, decision, matched in [*held, ("", default, elsewhere)]:
+        acting = matched[(table[matched] == decision) & control.acts[matched]]
+        overruled = bool(acting.size and not control.controls[acting].any())
+        whole[acting] |= overruled
         rules.append(RuleInWords(words[decision], where, overruled))
     return tuple(rules), whole
+
+
+def _counted(module: Module, table: NDArray[np.uint8]) -> tuple[CellsInWords, ...]:
+    """How often a table does what, the most frequent first; what it never does is left out."""
+    counts = np.bincount(table).tolist()
+    words = (NO_ACTION_TEXT, *module.actions)
+    found = [CellsInWords(words[decision], count) for decision, count in enumerate(counts) if count]
+    return tuple(sorted(found, key=lambda each: -each.cells))

@@ -64,6 +64,10 @@ def _sentences(layer: LayerInWords) -> list[str]:
 
 
 def _rules(layer: LayerInWords) -> list[str]:
+    if layer.counted:
+        n_cells = sum(each.cells for each in layer.counted)
+        counts = [f"{each.decision} in {each.cells:,}" for each in layer.counted]
+        return [f"a table of {n_cells:,} cells: {listed(counts, 'and')}"]
     *special, last = layer.rules
     decisions = {rule.decision for rule in special}
     if not special:
@@ -99,7 +103,7 @@ def _remarks(layer: LayerInWords) -> list[str]:
     if not layer.overruled:
         return [f"Overruled by {by}."]
     lost, left = ("; or where ".join(places) for places in (layer.overruled, layer.effective))
-    if len(left) < len(lost):
+    if layer.effective and len(left) < len(lost):
         return [f"Controls only where {left}; otherwise overruled by {by}."]
     return [f"Overruled by {by} where {lost}."]
 

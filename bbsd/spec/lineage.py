@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,14 +10,14 @@ from typing import TYPE_CHECKING
 from bbsd.errors import Diagnosis, SpecError, did_you_mean
 from bbsd.spec.validation import child, has
 from bbsd.spec.written import kind_of
-from bbsd.text import DELETE, Source, read, replace_blocks
+from bbsd.text import Source, differences, read, replace_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from bbsd.errors import Place
     from bbsd.expression.scope import Path as DataPath
-    from bbsd.text import Data, Deletion, Document
+    from bbsd.text import Data, Document
 
 EXTENDS = "extends"
 MAX_FILES = 10
@@ -68,7 +67,8 @@ class Lineage:
         """The same as one document: the last file's text with the changes that the others make."""
         found = self.documents[-1]
         for document in reversed(self.documents[:-1]):
-            text = replace_blocks(found, dict(changes(found.data, _own(document))))
+            wanted = overlaid(found.data, _own(document))
+            text = replace_blocks(found, dict(differences(found.data, wanted)))
             found = read(Source(self.source.file, text))
         return found
 
@@ -161,20 +161,6 @@ def overlaid(base: dict[str, Data], over: dict[str, Data]) -> dict[str, Data]:
         else:
             found[key] = value
     return found
-
-
-def changes(
-    base: dict[str, Data], over: dict[str, Data], path: DataPath = ()
-) -> Iterator[tuple[DataPath, Data | Deletion]]:
-    """Yield what laying a mapping over another changes, by the path of each change."""
-    for key, value in over.items():
-        here, below = (*path, key), base.get(key)
-        if value is None and key in base:
-            yield here, DELETE
-        elif isinstance(below, dict) and isinstance(value, dict):
-            yield from changes(below, value, here)
-        elif key not in base or json.dumps(below) != json.dumps(value):
-            yield here, value
 
 
 def _own(document: Document) -> dict[str, Data]:

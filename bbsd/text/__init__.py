@@ -3,7 +3,7 @@
 from bbsd.text.document import Document
 from bbsd.text.modeline import without_relative_modeline
 from bbsd.text.nodes import Data, DataPath
-from bbsd.text.patch import DELETE, Deletion, UnwritableError, replace_blocks
+from bbsd.text.patch import DELETE, Deletion, TooLargeError, as_read, differences, replace_blocks, with_change
 from bbsd.text.reader import read
 from bbsd.text.source import Source
 from bbsd.text.writer import write
@@ -15,9 +15,12 @@ __all__ = [
     "Deletion",
     "Document",
     "Source",
-    "UnwritableError",
+    "TooLargeError",
+    "as_read",
+    "differences",
     "read",
     "replace_blocks",
+    "with_change",
     "without_relative_modeline",
     "write",
 ]

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Final
 from bbsd.text.edits import added_entry, deleted_entry, replaced_entry, replaced_item
 from bbsd.text.nodes import Alias, Mapping, Sequence, child
 from bbsd.text.reader import read
-from bbsd.text.source import Source
+from bbsd.text.source import MAX_BYTES, Source
 from bbsd.text.writer import write
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from collections.abc import Mapping as Changes
 
     from bbsd.text.document import Document
@@ -28,8 +29,12 @@ class Deletion(Enum):
 DELETE: Final = Deletion.DELETE
 
 
-class UnwritableError(ValueError):
-    """Data that no text within the reader's bounds says."""
+class TooLargeError(ValueError):
+    """Data that a file cannot hold within the bounds of reading, and the path of what was one too many."""
+
+    def __init__(self, path: DataPath) -> None:
+        super().__init__("these data cannot be written")
+        self.path = path
 
 
 def replace_blocks(
@@ -41,7 +46,8 @@ def replace_blocks(
     mapping, at the top level behind the key `after` if there is one. The result always reads as the data
     with those changes: where a change of the block alone cannot do that (it has an anchor that is used
     elsewhere, say), the block around it is written anew. Raises ValueError if the document has mistakes,
-    or a path does not fit it: there is a single value on its way, or nothing to delete; UnwritableError.
+    or a path does not fit it: there is a single value on its way, or nothing to delete; TooLargeError where
+    what would be written is too large to be read.
     """
     if document.diagnoses:
         raise ValueError("a text with mistakes cannot be changed")
@@ -51,15 +57,40 @@ def replace_blocks(
 
 
 def _changed(document: Document, path: DataPath, value: Data | Deletion, after: str | None) -> Document:
-    wanted = _with_change(document.data, path, value, after)
+    wanted = with_change(document.data, path, value, after)
     for length in range(len(path), -1, -1):
         block = value if length == len(path) else _at(wanted, path[:length])
         text = _edited(document, path[:length], block, after)
         if text is not None:
-            result = read(Source(document.source.file, text))
-            if not result.diagnoses and _identity(result.data) == _identity(wanted):
+            result = as_read(document.source.file, text)
+            if result is not None and _identity(result.data) == _identity(wanted):
                 return result
-    raise UnwritableError("these data cannot be written")
+    raise TooLargeError(path)
+
+
+def as_read(file: str, text: str) -> Document | None:
+    """Return what a text would be read as from a file of its own; None where it would be refused."""
+    if len(text.encode()) > MAX_BYTES:
+        return None
+    document = read(Source(file, text))
+    return None if document.diagnoses else document
+
+
+def differences(before: Data, after: Data, path: DataPath = ()) -> Iterator[tuple[DataPath, Data | Deletion]]:
+    """Yield what to change where to make some data of others, by the path of each change."""
+    match before, after:
+        case dict(), dict():
+            yield from (((*path, key), DELETE) for key in before if key not in after)
+            for key, value in after.items():
+                if key in before:
+                    yield from differences(before[key], value, (*path, key))
+                else:
+                    yield (*path, key), value
+        case list(), list() if len(before) == len(after):
+            for place, pair in enumerate(zip(before, after, strict=True)):
+                yield from differences(*pair, (*path, place))
+        case _ if _identity(before) != _identity(after):
+            yield path, after
 
 
 def _identity(data: Data) -> str:
@@ -67,14 +98,15 @@ def _identity(data: Data) -> str:
     return json.dumps(data, sort_keys=True)
 
 
-def _with_change(data: Data, path: DataPath, value: Data | Deletion, after: str | None = None) -> Data:
+def with_change(data: Data, path: DataPath, value: Data | Deletion, after: str | None = None) -> Data:
+    """Return some data with what is at a path set, added or removed; raises as `replace_blocks`."""
     if not path:
         if isinstance(value, Deletion):
             raise ValueError("the whole cannot be deleted")
         return value
     match data, path[0]:
         case list(), int(index) if 0 <= index < len(data):
-            changed = [] if _deletes(path, value) else [_with_change(data[index], path[1:], value)]
+            changed = [] if _deletes(path, value) else [with_change(data[index], path[1:], value)]
             return [*data[:index], *changed, *data[index + 1 :]]
         case dict() | None, str(key):
             return _with_entry(data or {}, key, path, value, after)
@@ -88,7 +120,7 @@ def _with_entry(
         if key not in data:
             raise ValueError(f"there is no {key!r} to delete")
         return {name: each for name, each in data.items() if name != key}
-    new = _with_change(data.get(key), path[1:], value)
+    new = with_change(data.get(key), path[1:], value)
     if key in data or after not in data:
         return {**data, key: new}
     behind = [*data].index(after) + 1

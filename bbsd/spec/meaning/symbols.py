@@ -71,11 +71,14 @@ def text_of_table(cells: Sequence[int], inputs: Inputs) -> str:
 def filled_text(text: str, cells: Iterable[int]) -> str:
     """A table's text with what is open in it set to the table's cells, everything else as it was."""
     left = iter(cells)
-    filled = (
-        symbol if symbol.isspace() else SYMBOLS[cell] if symbol == SYMBOLS[OPEN_CELL] else symbol
-        for symbol, cell in ((symbol, 0 if symbol.isspace() else next(left)) for symbol in text)
-    )
-    return "".join(filled)
+
+    def filled(symbol: str) -> str:
+        if symbol.isspace():
+            return symbol
+        cell = next(left)
+        return SYMBOLS[cell] if symbol == SYMBOLS[OPEN_CELL] else symbol
+
+    return "".join(map(filled, text))
 
 
 # Many behaviors may repeat the same long text: it is gone through once.

@@ -13,9 +13,9 @@ from bbsd.compiler import compile_meaning
 from bbsd.errors import SpecError
 from bbsd.report.configuration import configuration_text
 from bbsd.spec import lineage
-from bbsd.spec.lineage import MAX_FILES, changes, overlaid
+from bbsd.spec.lineage import MAX_FILES, overlaid
 from bbsd.spec.loading import check, load
-from bbsd.text import Source, read, replace_blocks
+from bbsd.text import Source, differences, read, replace_blocks
 from tests.unit.spec.specs import BASE
 
 
@@ -57,7 +57,7 @@ def told(source):
 def test_mappings_merge_level_by_level_and_all_else_is_replaced(base, over, expected):
     assert json.dumps(overlaid(base, over)) == json.dumps(expected)
     document = read(Source("base", json.dumps(base)))
-    flat = replace_blocks(document, dict(changes(base, over)))
+    flat = replace_blocks(document, dict(differences(base, overlaid(base, over))))
     assert read(Source("flat", flat)).data == expected
 
 

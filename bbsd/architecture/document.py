@@ -1,0 +1,102 @@
+"""The file that a design comes back as, and whether it could be written at all."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.architecture.architecture import Architecture
+from bbsd.architecture.written import MOST_WORDS, NO_WORDS, spec_changes
+from bbsd.errors import Diagnosis
+from bbsd.spec.meaning.rules import OPEN_CELL
+from bbsd.spec.meaning.structure import OPEN_LAYER
+from bbsd.text import (
+    TooLargeError,
+    as_read,
+    differences,
+    replace_blocks,
+    with_change,
+    without_relative_modeline,
+    write,
+)
+
+if TYPE_CHECKING:
+    from bbsd.spec.loading import Loaded
+    from bbsd.spec.meaning import Meaning
+    from bbsd.text import Data, DataPath, Deletion
+
+WORDS = (MOST_WORDS, MOST_WORDS // 10, NO_WORDS)
+"""Of a behavior's rules: as many as can be read; fewer, where many behaviors are too much for one file; none."""
+
+
+def designed_text(loaded: Loaded, architecture: Architecture) -> str:
+    """The designer's file with what was set and its holes filled; everything else is as it was.
+
+    But for a comment that names an editor's schema by a relative path: in a run's folder that leads nowhere. Raises
+    TooLargeError, but not for what `require_writable` let pass.
+    """
+    for most_words in WORDS[:-1]:
+        with suppress(TooLargeError):
+            return _text(loaded, architecture, most_words)
+    return _text(loaded, architecture, WORDS[-1])
+
+
+def require_writable(loaded: Loaded) -> None:
+    """Raise SpecError if there are designs of a spec that could not be written, even with all tables as text."""
+    largest = _largest(loaded.meaning)
+    try:
+        if not (loaded.lineage.flat and _fits(loaded, largest)):
+            _text(loaded, largest, NO_WORDS)
+    except TooLargeError as error:
+        raise loaded.lineage.error([_too_large(loaded, error.path)]) from None
+
+
+def _fits(loaded: Loaded, largest: Architecture) -> bool:
+    """Whether the data can be written anew as a whole, the last resort of `replace_blocks`."""
+    data: Data = loaded.data
+    for path, value in spec_changes(loaded.meaning, largest, NO_WORDS).items():
+        data = with_change(data, path, value)
+    return isinstance(data, dict) and as_read(loaded.source.file, write(data)) is not None
+
+
+def _text(loaded: Loaded, architecture: Architecture, most_words: int) -> str:
+    changes: dict[DataPath, Data | Deletion] = {
+        **dict(differences(loaded.lineage.data, loaded.data)),
+        **spec_changes(loaded.meaning, architecture, most_words),
+    }
+    return without_relative_modeline(replace_blocks(loaded.lineage.flat, changes, after="behaviors"))
+
+
+def _largest(meaning: Meaning) -> Architecture:
+    """An architecture that takes the most characters: last actions, and behaviors with long names."""
+    modules, structure = meaning.episode.modules, meaning.structure
+    tables = (np.full(module.n_cells, len(module.actions), np.uint8) for module in modules)
+    n_open = structure.layers.count(OPEN_LAYER)
+    longest = sorted(structure.candidates, key=lambda index: -len(modules[index].name.encode()))[:n_open]
+    return Architecture(tuple(tables), np.array([*filter(_is_given, structure.layers), *longest], np.int64))
+
+
+def _is_given(layer: int) -> bool:
+    return layer != OPEN_LAYER
+
+
+def _too_large(loaded: Loaded, path: DataPath) -> Diagnosis:
+    """What is said of a design that could not be written, because of what goes to a path."""
+    what, advice = _what(loaded.meaning, path)
+    message = (
+        f"with {what}, a design would have more than 1 MB or 50 000 keys and values and could not be written"
+    )
+    return Diagnosis("BB048", message, loaded.lineage.place(path[:2], on_key=True), advice)
+
+
+def _what(meaning: Meaning, path: DataPath) -> tuple[str, str]:
+    match path:
+        case ("behaviors", name, "rules" | "table"):
+            table = next(module.table for module in meaning.episode.modules if module.name == name)
+            count = table.given.count(OPEN_CELL)
+            return f"the {count:,} open cells of {name}", "cut the inputs more coarsely"
+        case ("constants", name, *_):
+            return f"the numbers of {name}", "draw fewer"
+    return "what fills the holes", "make it smaller"
