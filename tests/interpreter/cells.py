@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from bbsd.spec.models import Behavior, Spec
 
 OPEN_CELL = 255
+NUMBERS = {".": 0, "?": OPEN_CELL} | {str(number): number for number in range(10)}
+"""What the characters of a table mean, as far as made-up behaviors have actions."""
 Partition = Expression | dict[str, Expression]
 
 
@@ -103,6 +105,8 @@ def interval(label: str) -> tuple[float, float]:
 
 def given_table(behavior: Behavior, spec: Spec, constants: Mapping[str, Value]) -> list[int]:
     """Each cell's action by its number, 0 for no action, or OPEN_CELL; the last input changes fastest."""
+    if behavior.table is not None:
+        return [NUMBERS[symbol] for symbol in behavior.table if not symbol.isspace()]
     inputs = partitions(behavior, spec)
     actions = {name: number for number, name in enumerate(behavior.actions, 1)}
     numbers = {NO_ACTION_TEXT: 0, OPEN: OPEN_CELL, **actions}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import product
+from math import prod
 from typing import Any
 
 from hypothesis import strategies as st
@@ -41,9 +42,20 @@ def behavior(draw: Draw, senses: Senses) -> dict[str, Any]:
         block["excited"] = truth(draw, senses.reach)
     if draw(st.booleans()):
         block["expects"] = expectation(draw, senses.reach)
-    if draw(st.booleans()):
-        block["rules"] = rules(draw, cells, [*actions, "no action", "open"])
+    match draw(st.sampled_from(["rules", "rules", "table", None])):
+        case "rules":
+            block["rules"] = rules(draw, cells, [*actions, "no action", "open"])
+        case "table":
+            block["table"] = table(draw, cells, len(actions))
     return block
+
+
+def table(draw: Draw, cells: Cells, n_actions: int) -> str:
+    """A character for each cell, with white space wherever it may be."""
+    size = prod(len(frozenset().union(*labels.values())) for labels in cells.values())
+    symbol = st.sampled_from(["?", ".", "0", *map(str, range(1, n_actions + 1))])
+    blank = st.sampled_from(["", "", "\n", "  "])
+    return "".join(draw(blank) + draw(symbol) for _ in range(size)) + draw(blank)
 
 
 def expectation(draw: Draw, reach: Reach) -> str:

@@ -138,3 +138,9 @@ def test_the_most_common_decision_comes_last_and_of_equals_no_action(cells, word
 
 def test_a_table_of_one_cell_is_one_rule():
     assert rules_of(np.array([1], np.uint8), {}, ["push"]) == [{"otherwise": "push"}]
+
+
+def test_rules_with_too_many_words_are_none():
+    table, inputs = np.array([1, 0, 1, 0], np.uint8), {"pace": VALUES}
+    assert rules_of(table, inputs, ["act"], most_words=3) == rules_of(table, inputs, ["act"])
+    assert rules_of(table, inputs, ["act"], most_words=2) is None

@@ -123,3 +123,28 @@ def test_in_a_space_that_is_too_large_nothing_is_counted():
     assert explanation.joint_size == 1_000_000
     assert explanation.nobody_cells is None
     assert all(layer.cells is None and not layer.overruled_by for layer in explanation.layers)
+
+
+FINE = """
+  lower: {inputs: {fine: "values(floor(x), 0, 99999)"}, actions: {a: {x: 1}, b: {x: 2}}}
+  upper: {inputs: {near: x > 1}, actions: {a: {x: 2}}}
+"""
+
+
+def test_a_table_that_nobody_reads_is_counted():
+    table = np.random.default_rng(0).choice(3, 100_000, p=[0.2, 0.5, 0.3])
+    explanation = explained(FINE, [table, [0, 1]], [0, 1])
+    upper, lower = explanation.layers
+    counts = np.bincount(table).tolist()
+    assert (lower.rules, upper.counted, lower.overruled_by) == ((), (), ("upper",))
+    assert {each.decision: each.cells for each in lower.counted} == dict(
+        zip(("no action", "a", "b"), counts, strict=True)
+    )
+    assert len(json.dumps(explanation.to_plain())) < 2000
+
+
+def test_few_rules_of_a_large_table_are_in_words():
+    table = np.zeros(100_000, int)
+    table[[3, 70_000]] = 1
+    lower = explained(FINE, [table, [0, 1]], [0]).layers[0]
+    assert lower.rules[0] == RuleInWords("a", "fine is 3 or 70000", overruled=False)

@@ -14,7 +14,7 @@ from tests.unit.spec.specs import source
 
 PACKAGE = Path(bbsd.__file__).parent
 CATALOG = PACKAGE / "errors"
-NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB029", "BB045"}
+NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB029", "BB045", "BB048"}
 """What no few lines can show: files that are missing or no text, what is too large, what only a run finds."""
 
 

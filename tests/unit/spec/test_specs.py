@@ -15,7 +15,7 @@ SPECS = Path(__file__).parents[2] / "specs"
 INVALID = sorted((SPECS / "invalid").glob("*.yaml"))
 VALID = sorted((SPECS / "valid").glob("*.yaml"))
 EXPECTED = re.compile(r"# expect: (.*)$")
-WITHOUT_FILE = {"BB001", "BB002", "BB028", "BB045"}
+WITHOUT_FILE = {"BB001", "BB002", "BB028", "BB045", "BB048"}
 """No such file, too large a file, an argument of the command line, and what only a run finds."""
 
 

@@ -106,6 +106,16 @@ def test_a_number_of_many_digits_is_refused() -> None:
 def test_a_long_text_is_refused() -> None:
     assert codes("a: " + "x" * 10_000) == []
     assert codes("a: " + "x" * 10_001) == ["BB013"]
+    assert codes("table: " + "x" * 900_000) == []
+
+
+def test_a_long_table_is_no_way_around_that() -> None:
+    assert codes("table: &long " + "x" * 10_001 + "\na: *long\n") == ["BB013"]
+
+
+def test_long_texts_count_as_several_values() -> None:
+    repeated = "".join(f"a{n}: {{table: *long}}\n" for n in range(600))
+    assert codes("table: &long " + "x" * 100_000 + "\n" + repeated) == ["BB011"]
 
 
 @pytest.mark.parametrize("character", ["\0", "\x07", "\x1b", "\x7f", "\ufffe", "\ud800"])

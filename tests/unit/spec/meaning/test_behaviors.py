@@ -120,3 +120,9 @@ def test_each_use_of_a_definition_that_a_behavior_cannot_know_is_told() -> None:
     part = "environment: {world: {wind: 0}, definitions: {lead: height - wind}}\n"
     part += "behaviors: {stop: {excited: lead > 1, expects: lead > before(lead)}}"
     assert codes(part) == ["BB066"] * 3
+
+
+def test_the_cells_of_all_tables_are_bounded() -> None:
+    one = "  go{}: {{inputs: {{fine: 'values(floor(speed), 0, 999999)'}}, actions: {{go: {{speed: 0}}}}}}\n"
+    assert codes("behaviors:\n" + "".join(map(one.format, range(9)))) == []
+    assert codes("behaviors:\n" + "".join(map(one.format, range(20)))) == ["BB039"]
