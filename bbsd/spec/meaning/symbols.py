@@ -106,9 +106,8 @@ def _wrong_length(text: str, n_given: int, inputs: Inputs) -> tuple[str, Span, s
     """What is said of a table with too many cells or too few, and where: a line unlike the others, or the end."""
     sizes = [f"{len(cells):,} of {name}" for name, cells in inputs.items()]
     product = f" ({' x '.join(sizes)})" if len(sizes) > 1 else ""
-    message = (
-        f"this table has {n_given:,} cells, and its inputs make {prod(map(len, inputs.values())):,}{product}"
-    )
+    given, wanted = f"{n_given:,} cell{'s' * (n_given != 1)}", prod(map(len, inputs.values()))
+    message = f"this table has {given}, and its inputs make {wanted:,}{product}"
     return message, *_where_wrong(text)
 
 
