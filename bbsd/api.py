@@ -52,7 +52,6 @@ if TYPE_CHECKING:
     from bbsd.compiler import DetailedOutcome
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
-    from bbsd.text import Data, DataPath, Deletion, Document
 
 EVALUATION = name_word("evaluation")
 EPISODES, EPISODES_AT_RANDOM = 1000, RANDOM_EPISODES

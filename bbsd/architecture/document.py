@@ -84,19 +84,14 @@ def _is_given(layer: int) -> bool:
 
 def _too_large(loaded: Loaded, path: DataPath) -> Diagnosis:
     """What is said of a design that could not be written, because of what goes to a path."""
-    what, advice = _what(loaded.meaning, path)
+    what, advice = "what fills the holes", "make it smaller"
+    if len(path) == 3 and path[-1] == "table":
+        table = next(module.table for module in loaded.meaning.episode.modules if module.name == path[1])
+        what, advice = (
+            f"the {table.given.count(OPEN_CELL):,} open cells of {path[1]}",
+            "cut the inputs more coarsely",
+        )
     message = (
         f"with {what}, a design would have more than 1 MB or 50 000 keys and values and could not be written"
     )
     return Diagnosis("BB048", message, loaded.lineage.place(path[:2], on_key=True), advice)
-
-
-def _what(meaning: Meaning, path: DataPath) -> tuple[str, str]:
-    match path:
-        case ("behaviors", name, "rules" | "table"):
-            table = next(module.table for module in meaning.episode.modules if module.name == name)
-            count = table.given.count(OPEN_CELL)
-            return f"the {count:,} open cells of {name}", "cut the inputs more coarsely"
-        case ("constants", name, *_):
-            return f"the numbers of {name}", "draw fewer"
-    return "what fills the holes", "make it smaller"

@@ -312,10 +312,10 @@ SPEC_KINDS = (
         explanation=(
             "What bbsd design writes is a spec again, within a spec's bounds: 1 MB, and 50 000 keys and values. "
             "A design that would not fit is refused before it is begun. A cell takes a character, so there is "
-            "room for tables of about 900 000 cells together; drawn constants are written out as numbers."
+            "room for tables of about 900 000 cells together."
         ),
-        example="constants:\n  noise: list(list(uniform(0, 1) for k in range(300)) for i in range(300))",
-        mend="constants:\n  noise: list(list(uniform(0, 1) for k in range(100)) for i in range(100))",
+        example="behaviors:\n  stop:\n    inputs:\n      at: values(round(height * 100000), 0, 999999)",
+        mend="behaviors:\n  stop:\n    inputs:\n      at: values(round(height * 100), 0, 999)",
     ),
     Kind(
         code="BB049",

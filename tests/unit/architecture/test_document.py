@@ -104,17 +104,6 @@ def test_what_no_file_can_hold_is_refused_at_its_place(size, n_behaviors):
     assert f"the {size:,} open cells of b{n_behaviors - 1}" in told.message
 
 
-def test_so_are_constants_that_draw_too_many_numbers():
-    drawn = "list(list(uniform(0, 1) for k in range({n})) for i in range({n}))"
-    text = small("  one: {actions: {a: {x: 1}}}") + f"constants:\n  noise: {drawn}\n"
-    require_writable(loaded(text.replace("{n}", "100")))
-    with pytest.raises(SpecError) as caught:
-        require_writable(loaded(text.replace("{n}", "300")))
-    assert [(each.code, "numbers of noise" in each.message) for each in caught.value.diagnoses] == [
-        ("BB048", True)
-    ]
-
-
 def test_what_is_set_is_written_also_what_takes_away_nothing():
     text = small("  one: {actions: {a: {x: 1}}}") + "design:\n  layers: 1   # one\n"
     settings = ("view=null", "design.learning={rate: 0.5}", "design.learning.rate=0.25", "design.layers=null")

@@ -1,4 +1,3 @@
-import os
 import signal
 import threading
 
@@ -9,7 +8,8 @@ from bbsd.solver.interruption import Wish, heed, interrupts_noted, present_wish
 
 
 def interrupt():
-    os.kill(os.getpid(), signal.SIGINT)
+    # To the main thread: a signal to the process may reach a watching one, and two become one.
+    signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
 
 
 def interrupt_and_heed(**options):

@@ -204,7 +204,7 @@ def test_what_is_designed_is_flat():
     rules = "behaviors: {stop: {rules: [otherwise: halt]}}\nstructure: [stop]\n"
     loaded = load(extending(rules))
     architecture = given_architecture(compile_meaning(loaded.meaning, compiled=False))
-    text = designed_text(loaded, loaded.meaning, architecture)
+    text = designed_text(loaded, architecture)
     assert "extends" not in text
     assert "# of an episode" in text
     assert load(Source("written.yaml", text)).spec == loaded.spec

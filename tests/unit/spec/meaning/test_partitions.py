@@ -5,11 +5,8 @@ from tests.unit.spec.specs import codes, meant
 
 
 def cells(partition: str) -> tuple[str, ...]:
-    return (
-        meant(f"behaviors: {{stop: {{inputs: {{reached: {partition}}}}}}}")
-        .episode.modules[0]
-        .inputs["reached"]
-    )
+    meaning = meant(f"behaviors: {{stop: {{inputs: {{reached: {partition}}}}}}}")
+    return tuple(meaning.episode.modules[0].inputs["reached"])
 
 
 @pytest.mark.parametrize(
