@@ -102,6 +102,19 @@ def behaviors(n: int, dice: random.Random) -> str:
     )
 
 
+def symbols(n: int, dice: random.Random) -> str:
+    """A table as text, nearly or just as long as it should be, alone or repeated by many behaviors."""
+    kinds = dice.choice((".1", "01?", ".1?2z", "Àé.1"))
+    cells = "".join(dice.choices(kinds, k=n + dice.choice((-1, 0, 0, 1))))
+    row = dice.choice((1, 90, 1000, n))
+    rows = [cells[start : start + row] for start in range(0, len(cells), row)]
+    text = dice.choice(("|", ">", "|-")) + "\n" + "".join(f"      {row}\n" for row in rows)
+    behavior = f"    inputs: {{at: 'values(speed, 1, {n})'}}\n    actions: {{run: {{speed: 1}}}}\n    table: "
+    repeated = "".join(f"  again{k}:\n{behavior}*cells\n" for k in range(dice.choice((0, 1, 60))))
+    anchor = "&cells " if repeated else ""
+    return spec(robots=dice.choice((1, 64)), behaviors=f"  go:\n{behavior}{anchor}{text}{repeated}")
+
+
 def cells(n: int, dice: random.Random) -> str:
     """Named cells with conditions whose cover is to be proven."""
     join = dice.choice((" and ", " or "))
@@ -184,8 +197,8 @@ def noise(n: int, dice: random.Random) -> str:
 
 
 BURDENS: tuple[Burden, ...] = (
-    doubling, parameters, sensors, generators, tables, unknown, keys, rules, behaviors, cells, cuts, long_expression,
-    deep, aliases, numbers, unicode_names, random_data, noise,
+    doubling, parameters, sensors, generators, tables, unknown, keys, rules, behaviors, symbols, cells, cuts,
+    long_expression, deep, aliases, numbers, unicode_names, random_data, noise,
 )  # fmt: skip
 SIZES = (1, 10, 40, 100, 1000, 10_000, 100_000)
 
