@@ -121,7 +121,7 @@ def _input(module: Module, place: int) -> Key:
     """What tells the cell of an input, for every robot; of a truth it is the truth itself."""
     nodes = tuple(cells[place] for cells in module.cells)
     size = len(module.inputs[[*module.inputs][place]])
-    is_truth = all(node.operation == "int" for node in nodes)
+    is_truth = all(node.operation == "cell_of" for node in nodes)
     return (tuple(node.operands[0] for node in nodes) if is_truth else nodes), size
 
 

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from bbsd.compiler.frame import Frame
     from bbsd.expression.graph import Node
 
+MOST_NESTED = 8
+"""Bids compared in one expression."""
 ACTION_BITS = 16
 """A priority is the layer shifted by so many bits, plus what makes a choice the action's number."""
 
@@ -30,7 +32,10 @@ class Decision:
 
     @cached_property
     def kept(self) -> list[tuple[str, str]]:
-        """For each behavior the arrays of its priority, and of its table: a word, or where its row of cells begins."""
+        """For each behavior the arrays of its priority, and of its table: a word, or where its row of cells begins.
+
+        The priority of a behavior with one action has that action's choice added already: it is all it can bid.
+        """
         keep = self.frame.keep
         return [
             (
@@ -46,7 +51,8 @@ class Decision:
         for index, (shape, (priority, table)) in enumerate(zip(self.frame.shapes, self.kept, strict=True)):
             individual = f"individuals[{index}, base + lane]"
             row = f"origins[{index}] + {individual} * {shape.n_cells}"
-            lines.append(f"{priority}[lane] = priorities[{index}, base + lane]")
+            offer = " + 1" if shape.n_actions == 1 else ""
+            lines.append(f"{priority}[lane] = priorities[{index}, base + lane]{offer}")
             lines.append(f"{table}[lane] = {f'words[{index}, {individual}]' if shape.packed else row}")
         return lines
 
@@ -94,17 +100,20 @@ class Decision:
 
     def decide(self, robot: int, emitter: Emitter, block: Block) -> None:
         """Find the number of the action that controls a robot; 0 is nobody's."""
-        call = self.frame.call_of
-        highest, *bids = [self._bid(index, robot, emitter, block) for index in range(len(self.frame.shapes))]
-        for bid in bids:
-            highest = call("maximum", highest, bid)
+        highest, last_one = "0", len(self.frame.shapes) - 1
+        for index in range(len(self.frame.shapes)):
+            active, bid = self._bid(index, robot, emitter, block)
+            highest = self.frame.call_of("maximum_where", highest, active, bid)
+            if index % MOST_NESTED == MOST_NESTED - 1 and index < last_one:
+                name = self.frame.namer(self.frame.robots_name("highest", robot))
+                block.assign(name, highest, Kind.CELL)
+                highest = name
         mask = (1 << ACTION_BITS) - 1
-        text = f"{call('maximum', highest, '0')} & {mask}"
-        block.assign(self.frame.actions[robot], text, Kind.CELL)
+        block.assign(self.frame.actions[robot], f"{highest} & {mask}", Kind.CELL)
         block.names[self.frame.episode.choices[robot].number] = self.frame.actions[robot]
 
-    def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
-        """What a behavior bids for control: its priority and its choice; 0 where it is not activated."""
+    def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> tuple[str, str]:
+        """Whether a behavior is activated, and what it then bids for control: its priority and its choice."""
         frame, module = self.frame, self.frame.episode.modules[index]
         looked = self._choice(index, robot, emitter, block)
         choice = frame.namer(frame.robots_name(f"choice_{module.name}", robot))
@@ -112,10 +121,8 @@ class Decision:
         active, excited = (f"{choice} > 0", COMPARISON), emitter.text(module.excited[robot], block)
         if excited[0] != "True":
             active = infix("&", active, excited)
-        bid = frame.namer(frame.robots_name(f"bid_{module.name}", robot))
-        offer = f"{self.kept[index][0]}[lane] + {choice}"
-        block.assign(bid, frame.call_of("select", active[0], offer, "0"), Kind.CELL)
-        return bid
+        priority = f"{self.kept[index][0]}[lane]"
+        return active[0], priority if frame.shapes[index].n_actions == 1 else f"{priority} + {choice}"
 
     def _choice(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
         """The value of the behavior's table at the robot's cell."""

@@ -202,7 +202,7 @@ class Emitter:
 
     def call(self, function: str, arguments: Iterable[str]) -> str:
         """The source of a call of a kernel's function, or of a built-in one."""
-        if function not in ("abs", "int"):
+        if function != "abs":
             self.used.add(function)
         return f"{function}({', '.join(arguments)})"
 

@@ -115,6 +115,7 @@ class Frame:
 
     def scratch(self) -> list[str]:
         """The lines that set up the memory of all that is kept."""
+        self.used |= self.memory.functions
         own = self.memory.own_lines(self.lanes, self.team) if self.looped else []
         return [*self.memory.lines(self.lanes), *own]
 

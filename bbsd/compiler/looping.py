@@ -116,7 +116,7 @@ class Loops:
         """The robot seen by each; the k-th of the others is k for those behind it and k + 1 for the rest."""
         k = robots[-1]
         if robots == tuple(k + (robot <= k) for robot in range(len(robots))):
-            return sum_of([(str(k), ATOM), (f"int(robot <= {k})", ATOM)])
+            return sum_of([(str(k), ATOM), (self.frame.call_of("cell_of", f"robot <= {k}"), ATOM)])
         return self.by_robot(map(str, robots)), ATOM
 
     def _table(self, node: Node) -> str:

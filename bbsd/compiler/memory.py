@@ -34,25 +34,34 @@ class Memory:
         """Whether an array holds a value of each robot."""
         return name in self.own_numbers or name in self.own_integers
 
+    @property
+    def functions(self) -> set[str]:
+        """The kernel's functions that the lines call."""
+        return {"zeros", "part", "as_words", *(["as_integers"] if self.integers or self.own_integers else [])}
+
     def lines(self, lanes: int) -> list[str]:
         """The lines that set up the team's arrays."""
         arrays = [("key", "streams"), *_views("", self.numbers, self.integers)]
         return [
-            f"numbers = np.zeros({len(arrays) * lanes}, np.float64)",
-            "streams = numbers.view(np.uint64)",
-            *(["cells = numbers.view(np.int64)"] if self.integers else []),
-            *(f"{name} = {view}[{k * lanes}:{(k + 1) * lanes}]" for k, (name, view) in enumerate(arrays)),
+            f"numbers = zeros({len(arrays) * lanes})",
+            "streams = as_words(numbers)",
+            *(["cells = as_integers(numbers)"] if self.integers else []),
+            *(f"{name} = part({view}, {k * lanes}, {lanes})" for k, (name, view) in enumerate(arrays)),
         ]
 
     def own_lines(self, lanes: int, robots: int) -> list[str]:
         """The lines that set up the robots' arrays, which begin with the first robot's values."""
         arrays = _views("own_", self.own_numbers, self.own_integers)
         stride = len(arrays) * lanes
+        size = stride * robots
         return [
             f"stride = {stride}",
-            f"own_numbers = np.zeros({stride * robots}, np.float64)",
-            *(["own_cells = own_numbers.view(np.int64)"] if self.own_integers else []),
-            *(f"{name} = {view}[{k * lanes}:]" for k, (name, view) in enumerate(arrays)),
+            f"own_numbers = zeros({size})",
+            *(["own_cells = as_integers(own_numbers)"] if self.own_integers else []),
+            *(
+                f"{name} = part({view}, {k * lanes}, {size - k * lanes})"
+                for k, (name, view) in enumerate(arrays)
+            ),
         ]
 
 

@@ -6,7 +6,7 @@ import keyword
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from bbsd.kernel import functions, streams
+from bbsd.kernel import functions, memory, streams
 
 if TYPE_CHECKING:
     from bbsd.spec.meaning.names import Slot
@@ -19,7 +19,9 @@ OWN = (
 )  # fmt: skip
 """What a rollout itself uses: arguments, variables, built-in functions."""
 
-CALLED = {name for module in (functions, streams) for name, value in vars(module).items() if callable(value)}
+CALLED = {
+    name for module in (functions, memory, streams) for name, value in vars(module).items() if callable(value)
+}
 TAKEN = CALLED.union(OWN, keyword.kwlist)
 
 

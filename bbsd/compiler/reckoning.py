@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from bbsd.spec.meaning.episode import Episode
     from bbsd.spec.meaning.names import Slot
 
+MOST_NESTED = 3
+"""Sums of a line."""
 DETAILED = ("terms", "control", "taken", "odd", "held")
 
 
@@ -84,9 +86,11 @@ class Reckoning:
         lines, earned = end.each.lines, self._earned_by_robot(emitter, end)
         end.team.lines.append(f"{self.total}[lane] = {self.total}[lane] + {self._team(earned, end)}")
         for index, name in enumerate(self.credit):
-            for robot, each in enumerate(earned):
-                controls = self._controls(index, robot, emitter, end)
-                kept = self.frame.call_of("select", controls, f"{name}[lane] + {each}", f"{name}[lane]")
+            for first in range(0, len(earned), MOST_NESTED):
+                kept = f"{name}[lane]"
+                for robot, each in [*enumerate(earned)][first : first + MOST_NESTED]:
+                    controls = self._controls(index, robot, emitter, end)
+                    kept = self.frame.call_of("add_where", kept, controls, each)
                 lines.append(f"{name}[lane] = {kept}")
 
     def _team(self, earned: list[str], end: Closing) -> str:

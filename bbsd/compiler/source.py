@@ -16,7 +16,7 @@ from bbsd.compiler.rolling import MOST_WRITTEN_OUT, rolled
 from bbsd.compiler.schedule import Closing, closing
 from bbsd.compiler.splitting import written
 from bbsd.expression.graph import Kind
-from bbsd.kernel import functions, streams
+from bbsd.kernel import functions, memory, streams
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
@@ -52,8 +52,9 @@ def module_source(
         used |= frame.used
     title = f'"""Episodes of {meaning.spec.name!r}, {lanes} at a time. Written by bbsd {__version__} from the spec."""'
     imports = [
-        "import numpy as np",
+        *(["import numpy as np"] if any("np." in text for text in (*tables, *texts)) else []),
         *_imports("bbsd.kernel.functions", sorted(used & vars(functions).keys())),
+        *_imports("bbsd.kernel.memory", sorted(used & vars(memory).keys())),
         *_imports("bbsd.kernel.streams", sorted(used & vars(streams).keys() - vars(functions).keys())),
     ]
     by_robot = ["\n".join(f"{name} = {text}" for text, name in tables.items())] if tables else []

@@ -196,7 +196,7 @@ def kind_drawn(distribution: str) -> Kind:
 def _kind_of(operation: str, operands: tuple[Node, ...]) -> Kind:
     if operation in COMPARISONS or operation in ("&", "|", "not", "finite"):
         return Kind.TRUTH
-    if operation in ("int", "clamp_index"):
+    if operation in ("cell_of", "clamp_index"):
         return Kind.CELL
     if operation == "select":
         return operands[1].kind
@@ -211,9 +211,7 @@ def compute(operation: str, operands: list[Any], data: Hashable = None) -> Any: 
         return CALLED[operation](*operands) if data is None else CALLED[operation](*operands, data)
     if operation == "negate":
         return -operands[0]
-    if operation == "not":
-        return not operands[0]
-    return int(operands[0])
+    return not operands[0]
 
 
 def needed(outputs: Iterable[Node]) -> list[Node]:
@@ -291,7 +289,7 @@ def _is_whole(
             return cast("tuple[str, int]", node.data)[0] == "integers" and all(operands)
         case "select":
             return all(operands[1:])
-        case "step" | "floor" | "ceil" | "round_half_even" | "sign" | "int" | "clamp_index":
+        case "step" | "floor" | "ceil" | "round_half_even" | "sign" | "cell_of" | "clamp_index":
             return True
         case "+" | "-" | "*" | "negate" | "abs" | "minimum" | "maximum" | "floor_divide" | "modulo":
             return all(operands)

@@ -45,6 +45,7 @@ CALLED: Mapping[str, Callable[..., Any]] = MappingProxyType(
         "minimum": functions.minimum,
         "maximum": functions.maximum,
         "select": functions.select,
+        "cell_of": functions.cell_of,
         "clamp_index": functions.clamp_index,
     }
 )

@@ -1,4 +1,4 @@
-"""What compiled code uses for `kernel.primitives`: one or two instructions each, the same bits, no branch.
+"""What compiled code uses for `kernel.primitives` and `kernel.memory`: few instructions, the same bits, no branch.
 
 Told to numba by its low-level interface, types and instructions apart. An overload would compile a function of its own
 for each primitive and each combination of types, which is a third of the time that a new kernel takes.
@@ -10,14 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 from numba import boolean, float64, int64, types, uint64
-from numba.core.typing.templates import signature
-from numba.extending import lower_builtin, type_callable
+from numba.core.imputils import impl_ret_borrowed
+from numba.core.typing.templates import infer_global, signature
+from numba.extending import lower_builtin, models, register_model, type_callable
+from numba.np.arrayobj import make_array
 
-from bbsd.kernel import primitives
+from bbsd.kernel import memory, primitives
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping, Sequence
 
+    from numba.core.base import BaseContext
+    from numba.core.dispatcher import Dispatcher
     from numba.core.typing.context import Context
     from numba.core.typing.templates import Signature
 
@@ -33,11 +37,34 @@ WORD = ir.IntType(64)
 def register() -> None:
     """Make the primitives callable in compiled code."""
     for function, found, emit in FIXED:
-        _tell(function, _unary(found) if len(found.args) == 1 else _binary(found), emit)
+        _tell(function, FIXED_TYPES[len(found.args)](found), emit)
     _tell(primitives.word_of, _word_type, lambda _builder, _found, number: number)
     _tell(primitives.select, _select_type, lambda builder, _found, *values: builder.select(*values))
     _tell(primitives.minimum, _same_type, _chosen("<"))
     _tell(primitives.maximum, _same_type, _chosen(">"))
+    _tell(primitives.maximum_where, _where_type, _maximum_where)
+    for seen, dtype in ((memory.as_words, uint64), (memory.as_integers, int64)):
+        type_callable(seen)(_view_type(dtype))
+        lower_builtin(seen, types.Array)(_view)
+    type_callable(memory.part)(_part_type)
+    lower_builtin(memory.part, types.Array, types.Any, types.Any)(_view)
+
+
+class _Offered(types.Dispatcher):
+    """What numba takes a function of the library for: compiled already, whatever literals it is called with."""
+
+    def get_call_type(
+        self, context: Context, args: Sequence[types.Type], kws: Mapping[str, types.Type]
+    ) -> Signature | None:
+        return super().get_call_type(context, tuple(map(types.unliteral, args)), kws)
+
+
+register_model(_Offered)(models.OpaqueModel)
+
+
+def offer(function: Function, compiled: Dispatcher) -> None:
+    """Make a function callable in compiled code as what it was compiled to, which the caller has to keep."""
+    infer_global(function, _Offered(compiled))
 
 
 def _tell(function: Function, typed: Callable[[Context], Typer], emit: Emit) -> None:
@@ -61,6 +88,13 @@ def _binary(found: Signature) -> Callable[[Context], Typer]:
     return lambda _context: lambda _a, _b: found
 
 
+def _ternary(found: Signature) -> Callable[[Context], Typer]:
+    return lambda _context: lambda _a, _b, _c: found
+
+
+FIXED_TYPES = {1: _unary, 2: _binary, 3: _ternary}
+
+
 def _word_type(_context: Context) -> Typer:
     return lambda number: signature(uint64, uint64 if types.unliteral(number) == uint64 else int64)
 
@@ -73,12 +107,28 @@ def _same_type(context: Context) -> Typer:
     return typed
 
 
+def _where_type(context: Context) -> Typer:
+    def typed(value: types.Type, _condition: types.Type, other: types.Type) -> Signature:
+        found = context.unify_types(types.unliteral(value), types.unliteral(other))
+        return signature(found, found, boolean, found)
+
+    return typed
+
+
 def _select_type(context: Context) -> Typer:
     def typed(_condition: types.Type, then: types.Type, otherwise: types.Type) -> Signature:
         value = context.unify_types(types.unliteral(then), types.unliteral(otherwise))
         return signature(value, boolean, value, value)
 
     return typed
+
+
+def _view_type(dtype: types.Type) -> Callable[[Context], Typer]:
+    return lambda _context: lambda array: signature(array.copy(dtype=dtype), array)
+
+
+def _part_type(_context: Context) -> Typer:
+    return lambda array, _first, _size: signature(array, array, int64, int64)
 
 
 # --- Instructions
@@ -104,9 +154,42 @@ def _chosen(comparison: str) -> Emit:
     return emit
 
 
+def _maximum_where(
+    builder: ir.IRBuilder, found: Signature, highest: ir.Value, condition: ir.Value, other: ir.Value
+) -> ir.Value:
+    return builder.select(condition, _chosen(">")(builder, found, highest, other), highest)
+
+
+def _view(
+    context: BaseContext, builder: ir.IRBuilder, found: Signature, values: tuple[ir.Value, ...]
+) -> ir.Value:
+    """The same memory as an array of other elements, or from a first element on so many."""
+    array, *part = values
+    seen = make_array(found.args[0])(context, builder, array)
+    view = make_array(found.return_type)(context, builder)
+    for name in ("meminfo", "parent", "nitems", "itemsize", "shape", "strides"):
+        setattr(view, name, getattr(seen, name))
+    data = seen.data
+    if part:
+        first, view.nitems = part
+        view.shape = builder.insert_value(view.shape, view.nitems, 0)
+        data = builder.gep(data, [first])
+    view.data = builder.bitcast(data, view.data.type)
+    value = view._getvalue()  # noqa: SLF001 - as numba's own documentation does it
+    return impl_ret_borrowed(context, builder, found.return_type, value)
+
+
 FIXED: tuple[tuple[Function, Signature, Emit], ...] = (
     (primitives.bits_of, int64(float64), lambda builder, _found, x: builder.bitcast(x, WORD)),
     (primitives.float_of, float64(int64), lambda builder, _found, bits: builder.bitcast(bits, FLOAT)),
+    (
+        primitives.add_where,
+        float64(float64, boolean, float64),
+        lambda builder, _found, total, condition, term: builder.select(
+            condition, builder.fadd(total, term), total
+        ),
+    ),
+    (primitives.cell_of, int64(boolean), lambda builder, _found, truth: builder.zext(truth, WORD)),
     (primitives.copysign, float64(float64, float64), _llvm("llvm.copysign", 2)),
     (primitives.divide, float64(float64, float64), lambda builder, _found, *values: builder.fdiv(*values)),
     (primitives.sqrt, float64(float64), _llvm("llvm.sqrt")),

@@ -9,7 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from bbsd.kernel import functions, streams
+from bbsd.kernel import functions, memory, streams
 from bbsd.kernel.modules import cache_folder, kernel_digest
 
 if TYPE_CHECKING:
@@ -35,7 +35,6 @@ with _config_file_unseen():
     import numba
     from numba.core import config
     from numba.core.dispatcher import Dispatcher
-    from numba.extending import register_jitable
 
     from bbsd.kernel import intrinsics
 
@@ -55,14 +54,32 @@ LIBRARY_OPTIONS: Any = {
 }
 
 
-def _register() -> None:
-    """Makes the library's functions callable in compiled code."""
+def _library() -> list[Dispatcher]:
+    """Makes the library's functions callable in compiled code; whoever calls this has to keep them.
+
+    Each is kept on disk by itself, for otherwise a kernel would compile all those anew that it calls.
+    """
     intrinsics.register()
-    for function in functions.COMPILABLE + streams.COMPILABLE:
-        register_jitable(**LIBRARY_OPTIONS)(function)
+    found = []
+    with _cached_in(cache_folder("compiled") / kernel_digest()):
+        for function in functions.COMPILABLE + streams.COMPILABLE + memory.COMPILABLE:
+            found.append(numba.njit(cache=True, **LIBRARY_OPTIONS)(function))
+            intrinsics.offer(function, found[-1])
+    return found
 
 
-_register()
+@contextmanager
+def _cached_in(folder: Path) -> Iterator[None]:
+    """What is made to be compiled meanwhile is kept there."""
+    kept = SETTINGS["CACHE_DIR"]
+    SETTINGS["CACHE_DIR"] = str(folder)
+    try:
+        yield
+    finally:
+        SETTINGS["CACHE_DIR"] = kept
+
+
+LIBRARY = _library()
 
 
 def jit(function: Function) -> Function:
@@ -70,12 +87,8 @@ def jit(function: Function) -> Function:
 
     numba's cache knows the text of the function's own file; its folder is named by all else that counts.
     """
-    kept = SETTINGS["CACHE_DIR"]
-    SETTINGS["CACHE_DIR"] = str(cache_folder("compiled") / _stamp(function))
-    try:
+    with _cached_in(cache_folder("compiled") / _stamp(function)):
         compiled: Function = numba.njit(cache=True, **OPTIONS)(function)
-    finally:
-        SETTINGS["CACHE_DIR"] = kept
     return compiled
 
 

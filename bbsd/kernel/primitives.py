@@ -41,6 +41,21 @@ def maximum(a: Value, b: Value) -> Value:
     return b if b > a else a  # noqa: FURB136
 
 
+def add_where(total: float, condition: bool, term: float) -> float:
+    """The sum of both where the condition holds, else the total alone."""
+    return total + term if condition else total
+
+
+def maximum_where(highest: Value, condition: bool, other: Value) -> Value:
+    """The greater one where the condition holds, else the first."""
+    return maximum(highest, other) if condition else highest
+
+
+def cell_of(truth: bool) -> int:
+    """The cell that a truth is in: 0 if false, 1 if true."""
+    return int(truth)
+
+
 def bits_of(x: float) -> int:
     """The 64 bits of a binary64 number as a signed whole number."""
     bits: int = _SIGNED.unpack(_FLOAT.pack(x))[0]
@@ -96,6 +111,9 @@ def ceil(x: float) -> float:
 
 PRIMITIVES = (
     select,
+    add_where,
+    maximum_where,
+    cell_of,
     minimum,
     maximum,
     bits_of,

@@ -79,12 +79,15 @@ def own_wish() -> Wish:
 def interrupts_noted(overdue: Callable[[], object] | None = None) -> Iterator[None]:
     """Note interrupts for `heed` while in here; only the main thread can, others leave things as they are.
 
+    So does a process that ignores them: a shell starts one so in the background, and Ctrl-C is meant for another.
+
     If one was not heeded within the grace period, `overdue` is called, in another thread.
     """
     wish = Wish()
     token = _wish.set(wish)
     try:
-        if threading.current_thread() is threading.main_thread():
+        is_main = threading.current_thread() is threading.main_thread()
+        if is_main and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
             with _handled(wish), _watched(wish, overdue):
                 yield
         else:

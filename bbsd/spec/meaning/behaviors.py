@@ -189,4 +189,4 @@ def _shared(name: str, decision: Moment, own: Scope, path: Path, robot: int) -> 
         message = f"an input needs a partition, and {name} is {what}"
         names.findings.tell(path, "BB030", message, WHOLE, advice)
         return None
-    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("int", found))
+    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("cell_of", found))

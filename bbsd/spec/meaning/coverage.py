@@ -59,7 +59,7 @@ def _is_atom(node: Node) -> bool:
     return (
         node.kind is Kind.TRUTH
         and not node.literal
-        and node.operation not in ("&", "|", "not", "select", "int")
+        and node.operation not in ("&", "|", "not", "select", "cell_of")
     )
 
 

@@ -61,7 +61,7 @@ def _truth(written: Expression, scope: Scope) -> Partition | None:
         )
         scope.mistake("BB030", f"an input needs a partition, and this is {what}", written.tree.span, advice)
         return None
-    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("int", found))
+    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", found))
 
 
 def _cut(tree: Call, scope: Scope) -> Partition | None:
@@ -87,7 +87,7 @@ def _cut(tree: Call, scope: Scope) -> Partition | None:
         f"from {texts[-1]}",
     )
     graph = scope.graph
-    passed = [graph.apply("int", graph.apply(">=", number, node)) for node in nodes]
+    passed = [graph.apply("cell_of", graph.apply(">=", number, node)) for node in nodes]
     return Partition(labels, graph.fold("+", passed))
 
 

@@ -1,38 +1,38 @@
-import numpy as np
-from bbsd.kernel.functions import clamp_index, divide, floor, maximum, select
+from bbsd.kernel.functions import add_where, cell_of, clamp_index, divide, floor, maximum_where, select
+from bbsd.kernel.memory import as_integers, as_words, part, zeros
 from bbsd.kernel.streams import fold, uniform, word_of
 
 
 def rollout(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
-    numbers = np.zeros(152, np.float64)
-    streams = numbers.view(np.uint64)
-    cells = numbers.view(np.int64)
-    key = streams[0:8]
-    x_0 = numbers[8:16]
-    x_1 = numbers[16:24]
-    awake_0 = numbers[24:32]
-    awake_1 = numbers[32:40]
-    middle_0 = numbers[40:48]
-    total = numbers[48:56]
-    credit_wait = numbers[56:64]
-    credit_come = numbers[64:72]
-    credit_nobody = numbers[72:80]
-    running_ = numbers[80:88]
-    priority_wait = cells[88:96]
-    table_wait = cells[96:104]
-    priority_come = cells[104:112]
-    row_come = cells[112:120]
-    cell_come_0 = cells[120:128]
-    choice_come_0 = cells[128:136]
-    cell_come_1 = cells[136:144]
-    choice_come_1 = cells[144:152]
+    numbers = zeros(152)
+    streams = as_words(numbers)
+    cells = as_integers(numbers)
+    key = part(streams, 0, 8)
+    x_0 = part(numbers, 8, 8)
+    x_1 = part(numbers, 16, 8)
+    awake_0 = part(numbers, 24, 8)
+    awake_1 = part(numbers, 32, 8)
+    middle_0 = part(numbers, 40, 8)
+    total = part(numbers, 48, 8)
+    credit_wait = part(numbers, 56, 8)
+    credit_come = part(numbers, 64, 8)
+    credit_nobody = part(numbers, 72, 8)
+    running_ = part(numbers, 80, 8)
+    priority_wait = part(cells, 88, 8)
+    table_wait = part(cells, 96, 8)
+    priority_come = part(cells, 104, 8)
+    row_come = part(cells, 112, 8)
+    cell_come_0 = part(cells, 120, 8)
+    choice_come_0 = part(cells, 128, 8)
+    cell_come_1 = part(cells, 136, 8)
+    choice_come_1 = part(cells, 144, 8)
     reach = constants[0]
     for base in range(first, last, 8):
         draw_1 = fold(0xac39aeacbaa9b617, word_of(0))
         draw_2 = fold(0xffb22b91d28bcbe7, word_of(0))
         for lane in range(8):
             key[lane] = keys[base + lane]
-            priority_wait[lane] = priorities[0, base + lane]
+            priority_wait[lane] = priorities[0, base + lane] + 1
             table_wait[lane] = words[0, individuals[0, base + lane]]
             priority_come[lane] = priorities[1, base + lane]
             row_come[lane] = origins[1] + individuals[1, base + lane] * 80
@@ -50,8 +50,8 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
             running_[lane] = 1.0
         for step in range(1, 11):
             for lane in range(8):
-                cell_come_0[lane] = int(abs(x_0[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_0[lane]), 39)
-                cell_come_1[lane] = int(abs(x_1[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_1[lane]), 39)
+                cell_come_0[lane] = cell_of(abs(x_0[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_0[lane]), 39)
+                cell_come_1[lane] = cell_of(abs(x_1[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_1[lane]), 39)
             for lane in range(8):
                 choice_come_0[lane] = tables[row_come[lane] + cell_come_0[lane]]
                 choice_come_1[lane] = tables[row_come[lane] + cell_come_1[lane]]
@@ -59,15 +59,11 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
             for lane in range(8):
                 # Decide: the highest layer that is excited and whose cell is not No Action controls.
                 choice_wait_0 = table_wait[lane] & 1
-                bid_wait_0 = select(choice_wait_0 > 0, priority_wait[lane] + choice_wait_0, 0)
                 choice_come_0_ = choice_come_0[lane]
-                bid_come_0 = select((choice_come_0_ > 0) & (awake_0[lane] != 0.0), priority_come[lane] + choice_come_0_, 0)
-                action_0 = maximum(maximum(bid_wait_0, bid_come_0), 0) & 65535
+                action_0 = maximum_where(maximum_where(0, choice_wait_0 > 0, priority_wait[lane]), (choice_come_0_ > 0) & (awake_0[lane] != 0.0), priority_come[lane] + choice_come_0_) & 65535
                 choice_wait_1 = table_wait[lane] & 1
-                bid_wait_1 = select(choice_wait_1 > 0, priority_wait[lane] + choice_wait_1, 0)
                 choice_come_1_ = choice_come_1[lane]
-                bid_come_1 = select((choice_come_1_ > 0) & (awake_1[lane] != 0.0), priority_come[lane] + choice_come_1_, 0)
-                action_1 = maximum(maximum(bid_wait_1, bid_come_1), 0) & 65535
+                action_1 = maximum_where(maximum_where(0, choice_wait_1 > 0, priority_wait[lane]), (choice_come_1_ > 0) & (awake_1[lane] != 0.0), priority_come[lane] + choice_come_1_) & 65535
                 # Act, then dynamics and sensors.
                 acted_x_0 = select(action_0 == 2, 0.5 * (x_0[lane] + middle_0[lane]), x_0[lane])
                 next_x_0 = acted_x_0 - now_1
@@ -82,12 +78,9 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
                 earned_0 = select(running_[lane] > 0.0, reward_close_0, 0.0)
                 earned_1 = select(running_[lane] > 0.0, reward_close_1, 0.0)
                 total[lane] = total[lane] + (earned_0 + earned_1)
-                credit_wait[lane] = select(action_0 == 1, credit_wait[lane] + earned_0, credit_wait[lane])
-                credit_wait[lane] = select(action_1 == 1, credit_wait[lane] + earned_1, credit_wait[lane])
-                credit_come[lane] = select((action_0 >= 2) & (action_0 < 4), credit_come[lane] + earned_0, credit_come[lane])
-                credit_come[lane] = select((action_1 >= 2) & (action_1 < 4), credit_come[lane] + earned_1, credit_come[lane])
-                credit_nobody[lane] = select(action_0 == 0, credit_nobody[lane] + earned_0, credit_nobody[lane])
-                credit_nobody[lane] = select(action_1 == 0, credit_nobody[lane] + earned_1, credit_nobody[lane])
+                credit_wait[lane] = add_where(add_where(credit_wait[lane], action_0 == 1, earned_0), action_1 == 1, earned_1)
+                credit_come[lane] = add_where(add_where(credit_come[lane], (action_0 >= 2) & (action_0 < 4), earned_0), (action_1 >= 2) & (action_1 < 4), earned_1)
+                credit_nobody[lane] = add_where(add_where(credit_nobody[lane], action_0 == 0, earned_0), action_1 == 0, earned_1)
                 running_[lane] = select((next_x_0 < 0.0) | (next_x_1 < 0.0), 0.0, running_[lane])
                 x_0[lane] = next_x_0
                 x_1[lane] = next_x_1

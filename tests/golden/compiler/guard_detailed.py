@@ -1,47 +1,47 @@
-import numpy as np
-from bbsd.kernel.functions import clamp_index, divide, floor, is_finite, maximum, select
+from bbsd.kernel.functions import add_where, cell_of, clamp_index, divide, floor, is_finite, maximum_where, select
+from bbsd.kernel.memory import as_integers, as_words, part, zeros
 from bbsd.kernel.streams import fold, uniform, word_of
 
 
 def rollout_detailed(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd, held):
-    numbers = np.zeros(224, np.float64)
-    streams = numbers.view(np.uint64)
-    cells = numbers.view(np.int64)
-    key = streams[0:8]
-    x_0 = numbers[8:16]
-    x_1 = numbers[16:24]
-    awake_0 = numbers[24:32]
-    awake_1 = numbers[32:40]
-    middle_0 = numbers[40:48]
-    sum_close = numbers[48:56]
-    steps_wait = numbers[56:64]
-    steps_come = numbers[64:72]
-    steps_nobody = numbers[72:80]
-    taken_ = numbers[80:88]
-    total = numbers[88:96]
-    credit_wait = numbers[96:104]
-    credit_come = numbers[104:112]
-    credit_nobody = numbers[112:120]
-    odd_x_0 = numbers[120:128]
-    odd_x_1 = numbers[128:136]
-    odd_middle_0 = numbers[136:144]
-    odd_middle_1 = numbers[144:152]
-    running_ = numbers[152:160]
-    priority_wait = cells[160:168]
-    table_wait = cells[168:176]
-    priority_come = cells[176:184]
-    row_come = cells[184:192]
-    cell_come_0 = cells[192:200]
-    choice_come_0 = cells[200:208]
-    cell_come_1 = cells[208:216]
-    choice_come_1 = cells[216:224]
+    numbers = zeros(224)
+    streams = as_words(numbers)
+    cells = as_integers(numbers)
+    key = part(streams, 0, 8)
+    x_0 = part(numbers, 8, 8)
+    x_1 = part(numbers, 16, 8)
+    awake_0 = part(numbers, 24, 8)
+    awake_1 = part(numbers, 32, 8)
+    middle_0 = part(numbers, 40, 8)
+    sum_close = part(numbers, 48, 8)
+    steps_wait = part(numbers, 56, 8)
+    steps_come = part(numbers, 64, 8)
+    steps_nobody = part(numbers, 72, 8)
+    taken_ = part(numbers, 80, 8)
+    total = part(numbers, 88, 8)
+    credit_wait = part(numbers, 96, 8)
+    credit_come = part(numbers, 104, 8)
+    credit_nobody = part(numbers, 112, 8)
+    odd_x_0 = part(numbers, 120, 8)
+    odd_x_1 = part(numbers, 128, 8)
+    odd_middle_0 = part(numbers, 136, 8)
+    odd_middle_1 = part(numbers, 144, 8)
+    running_ = part(numbers, 152, 8)
+    priority_wait = part(cells, 160, 8)
+    table_wait = part(cells, 168, 8)
+    priority_come = part(cells, 176, 8)
+    row_come = part(cells, 184, 8)
+    cell_come_0 = part(cells, 192, 8)
+    choice_come_0 = part(cells, 200, 8)
+    cell_come_1 = part(cells, 208, 8)
+    choice_come_1 = part(cells, 216, 8)
     reach = constants[0]
     for base in range(first, last, 8):
         draw_1 = fold(0xac39aeacbaa9b617, word_of(0))
         draw_2 = fold(0xffb22b91d28bcbe7, word_of(0))
         for lane in range(8):
             key[lane] = keys[base + lane]
-            priority_wait[lane] = priorities[0, base + lane]
+            priority_wait[lane] = priorities[0, base + lane] + 1
             table_wait[lane] = words[0, individuals[0, base + lane]]
             priority_come[lane] = priorities[1, base + lane]
             row_come[lane] = origins[1] + individuals[1, base + lane] * 80
@@ -68,8 +68,8 @@ def rollout_detailed(first, last, keys, individuals, words, tables, origins, pri
             running_[lane] = 1.0
         for step in range(1, 11):
             for lane in range(8):
-                cell_come_0[lane] = int(abs(x_0[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_0[lane]), 39)
-                cell_come_1[lane] = int(abs(x_1[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_1[lane]), 39)
+                cell_come_0[lane] = cell_of(abs(x_0[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_0[lane]), 39)
+                cell_come_1[lane] = cell_of(abs(x_1[lane] - middle_0[lane]) < reach) * 40 + clamp_index(floor(x_1[lane]), 39)
             for lane in range(8):
                 choice_come_0[lane] = tables[row_come[lane] + cell_come_0[lane]]
                 choice_come_1[lane] = tables[row_come[lane] + cell_come_1[lane]]
@@ -77,15 +77,11 @@ def rollout_detailed(first, last, keys, individuals, words, tables, origins, pri
             for lane in range(8):
                 # Decide: the highest layer that is excited and whose cell is not No Action controls.
                 choice_wait_0 = table_wait[lane] & 1
-                bid_wait_0 = select(choice_wait_0 > 0, priority_wait[lane] + choice_wait_0, 0)
                 choice_come_0_ = choice_come_0[lane]
-                bid_come_0 = select((choice_come_0_ > 0) & (awake_0[lane] != 0.0), priority_come[lane] + choice_come_0_, 0)
-                action_0 = maximum(maximum(bid_wait_0, bid_come_0), 0) & 65535
+                action_0 = maximum_where(maximum_where(0, choice_wait_0 > 0, priority_wait[lane]), (choice_come_0_ > 0) & (awake_0[lane] != 0.0), priority_come[lane] + choice_come_0_) & 65535
                 choice_wait_1 = table_wait[lane] & 1
-                bid_wait_1 = select(choice_wait_1 > 0, priority_wait[lane] + choice_wait_1, 0)
                 choice_come_1_ = choice_come_1[lane]
-                bid_come_1 = select((choice_come_1_ > 0) & (awake_1[lane] != 0.0), priority_come[lane] + choice_come_1_, 0)
-                action_1 = maximum(maximum(bid_wait_1, bid_come_1), 0) & 65535
+                action_1 = maximum_where(maximum_where(0, choice_wait_1 > 0, priority_wait[lane]), (choice_come_1_ > 0) & (awake_1[lane] != 0.0), priority_come[lane] + choice_come_1_) & 65535
                 # Act, then dynamics and sensors.
                 acted_x_0 = select(action_0 == 2, 0.5 * (x_0[lane] + middle_0[lane]), x_0[lane])
                 next_x_0 = acted_x_0 - now_1
@@ -100,12 +96,9 @@ def rollout_detailed(first, last, keys, individuals, words, tables, origins, pri
                 earned_0 = select(running_[lane] > 0.0, reward_close_0, 0.0)
                 earned_1 = select(running_[lane] > 0.0, reward_close_1, 0.0)
                 total[lane] = total[lane] + (earned_0 + earned_1)
-                credit_wait[lane] = select(action_0 == 1, credit_wait[lane] + earned_0, credit_wait[lane])
-                credit_wait[lane] = select(action_1 == 1, credit_wait[lane] + earned_1, credit_wait[lane])
-                credit_come[lane] = select((action_0 >= 2) & (action_0 < 4), credit_come[lane] + earned_0, credit_come[lane])
-                credit_come[lane] = select((action_1 >= 2) & (action_1 < 4), credit_come[lane] + earned_1, credit_come[lane])
-                credit_nobody[lane] = select(action_0 == 0, credit_nobody[lane] + earned_0, credit_nobody[lane])
-                credit_nobody[lane] = select(action_1 == 0, credit_nobody[lane] + earned_1, credit_nobody[lane])
+                credit_wait[lane] = add_where(add_where(credit_wait[lane], action_0 == 1, earned_0), action_1 == 1, earned_1)
+                credit_come[lane] = add_where(add_where(credit_come[lane], (action_0 >= 2) & (action_0 < 4), earned_0), (action_1 >= 2) & (action_1 < 4), earned_1)
+                credit_nobody[lane] = add_where(add_where(credit_nobody[lane], action_0 == 0, earned_0), action_1 == 0, earned_1)
                 # What an evaluation adds up.
                 sum_close[lane] = sum_close[lane] + select(running_[lane] > 0.0, reward_close_0, 0.0) + select(running_[lane] > 0.0, reward_close_1, 0.0)
                 steps_wait[lane] = steps_wait[lane] + select(action_0 == 1, running_[lane], 0.0) + select(action_1 == 1, running_[lane], 0.0)

@@ -1,46 +1,46 @@
-import numpy as np
-from bbsd.kernel.functions import clamp_index, divide, floor, maximum, select
+from bbsd.kernel.functions import add_where, cell_of, clamp_index, divide, floor, maximum_where, select
+from bbsd.kernel.memory import as_integers, as_words, part, zeros
 from bbsd.kernel.streams import fold, uniform, word_of
 
 BY_ROBOT_1 = (0xac39aeacbaa9b617, 0xffb22b91d28bcbe7, 0xff0a25df3a554bbe, 0xb26bdd26cb760ca9, 0xb3c40c665d9246a6, 0xb1922a1339548839, 0x8bfd19a806c68158, 0xea610af1d340b6eb)
 
 
 def rollout(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
-    numbers = np.zeros(128, np.float64)
-    streams = numbers.view(np.uint64)
-    cells = numbers.view(np.int64)
-    key = streams[0:8]
-    middle = numbers[8:16]
-    over_1 = numbers[16:24]
-    total = numbers[24:32]
-    credit_wait = numbers[32:40]
-    credit_come = numbers[40:48]
-    credit_nobody = numbers[48:56]
-    running_ = numbers[56:64]
-    over_2 = numbers[64:72]
-    next_middle_kept = numbers[72:80]
-    team_earned = numbers[80:88]
-    over_3 = numbers[88:96]
-    priority_wait = cells[96:104]
-    table_wait = cells[104:112]
-    priority_come = cells[112:120]
-    row_come = cells[120:128]
+    numbers = zeros(128)
+    streams = as_words(numbers)
+    cells = as_integers(numbers)
+    key = part(streams, 0, 8)
+    middle = part(numbers, 8, 8)
+    over_1 = part(numbers, 16, 8)
+    total = part(numbers, 24, 8)
+    credit_wait = part(numbers, 32, 8)
+    credit_come = part(numbers, 40, 8)
+    credit_nobody = part(numbers, 48, 8)
+    running_ = part(numbers, 56, 8)
+    over_2 = part(numbers, 64, 8)
+    next_middle_kept = part(numbers, 72, 8)
+    team_earned = part(numbers, 80, 8)
+    over_3 = part(numbers, 88, 8)
+    priority_wait = part(cells, 96, 8)
+    table_wait = part(cells, 104, 8)
+    priority_come = part(cells, 112, 8)
+    row_come = part(cells, 120, 8)
     stride = 64
-    own_numbers = np.zeros(512, np.float64)
-    own_cells = own_numbers.view(np.int64)
-    x = own_numbers[0:]
-    awake = own_numbers[8:]
-    part_1_kept = own_numbers[16:]
-    next_x_kept = own_numbers[24:]
-    next_awake_kept = own_numbers[32:]
-    cell_come = own_cells[40:]
-    choice_come = own_cells[48:]
-    action_kept = own_cells[56:]
+    own_numbers = zeros(512)
+    own_cells = as_integers(own_numbers)
+    x = part(own_numbers, 0, 512)
+    awake = part(own_numbers, 8, 504)
+    part_1_kept = part(own_numbers, 16, 496)
+    next_x_kept = part(own_numbers, 24, 488)
+    next_awake_kept = part(own_numbers, 32, 480)
+    cell_come = part(own_cells, 40, 472)
+    choice_come = part(own_cells, 48, 464)
+    action_kept = part(own_cells, 56, 456)
     reach = constants[0]
     for base in range(first, last, 8):
         for lane in range(8):
             key[lane] = keys[base + lane]
-            priority_wait[lane] = priorities[0, base + lane]
+            priority_wait[lane] = priorities[0, base + lane] + 1
             table_wait[lane] = words[0, individuals[0, base + lane]]
             priority_come[lane] = priorities[1, base + lane]
             row_come[lane] = origins[1] + individuals[1, base + lane] * 80
@@ -68,7 +68,7 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
             for robot in range(8):
                 own = robot * stride
                 for lane in range(8):
-                    cell_come[own + lane] = int(abs(x[own + lane] - middle[lane]) < reach) * 40 + clamp_index(floor(x[own + lane]), 39)
+                    cell_come[own + lane] = cell_of(abs(x[own + lane] - middle[lane]) < reach) * 40 + clamp_index(floor(x[own + lane]), 39)
                 for lane in range(8):
                     choice_come[own + lane] = tables[row_come[lane] + cell_come[own + lane]]
             now_1 = 0.1 * float(step)
@@ -77,10 +77,8 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
                 for lane in range(8):
                     # Decide: the highest layer that is excited and whose cell is not No Action controls.
                     choice_wait = table_wait[lane] & 1
-                    bid_wait = select(choice_wait > 0, priority_wait[lane] + choice_wait, 0)
                     choice_come_ = choice_come[own + lane]
-                    bid_come = select((choice_come_ > 0) & (awake[own + lane] != 0.0), priority_come[lane] + choice_come_, 0)
-                    action = maximum(maximum(bid_wait, bid_come), 0) & 65535
+                    action = maximum_where(maximum_where(0, choice_wait > 0, priority_wait[lane]), (choice_come_ > 0) & (awake[own + lane] != 0.0), priority_come[lane] + choice_come_) & 65535
                     # Act, then dynamics and sensors.
                     acted_x = select(action == 2, 0.5 * (x[own + lane] + middle[lane]), x[own + lane])
                     next_x = acted_x - now_1
@@ -104,9 +102,9 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
                     reward_close = -abs(next_x - next_middle)
                     earned = select(running_[lane] > 0.0, reward_close, 0.0)
                     team_earned[lane] = select(robot == 0, earned, team_earned[lane] + earned)
-                    credit_wait[lane] = select(action == 1, credit_wait[lane] + earned, credit_wait[lane])
-                    credit_come[lane] = select((action >= 2) & (action < 4), credit_come[lane] + earned, credit_come[lane])
-                    credit_nobody[lane] = select(action == 0, credit_nobody[lane] + earned, credit_nobody[lane])
+                    credit_wait[lane] = add_where(credit_wait[lane], action == 1, earned)
+                    credit_come[lane] = add_where(credit_come[lane], (action >= 2) & (action < 4), earned)
+                    credit_nobody[lane] = add_where(credit_nobody[lane], action == 0, earned)
             for lane in range(8):
                 total[lane] = total[lane] + team_earned[lane]
                 running_[lane] = select(over_3[lane] != 0.0, 0.0, running_[lane])

@@ -82,7 +82,7 @@ def test_truths_are_kept_as_numbers(frame, robots):
 
 
 def test_cells_are_kept_as_integers(frame, robots):
-    cell = robots.graph.apply("int", slot(robots, "armed", Kind.TRUTH))
+    cell = robots.graph.apply("cell_of", slot(robots, "armed", Kind.TRUTH))
     Written(frame, robots.of(cell, 1), at=2)
     assert frame.memory.own_integers == ["part_1_kept"]
 
@@ -90,9 +90,9 @@ def test_cells_are_kept_as_integers(frame, robots):
 @pytest.mark.parametrize(
     ("seen", "begins"),
     [
-        ((1, 0, 0, 0), "int(robot <= 0) * stride"),
-        ((2, 2, 1, 1), "(1 + int(robot <= 1)) * stride"),
-        ((3, 3, 3, 2), "(2 + int(robot <= 2)) * stride"),
+        ((1, 0, 0, 0), "cell_of(robot <= 0) * stride"),
+        ((2, 2, 1, 1), "(1 + cell_of(robot <= 1)) * stride"),
+        ((3, 3, 3, 2), "(2 + cell_of(robot <= 2)) * stride"),
         ((3, 0, 1, 2), "BY_ROBOT_1[robot] * stride"),
     ],
 )

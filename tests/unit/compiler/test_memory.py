@@ -5,6 +5,7 @@ import pytest
 
 from bbsd.compiler.memory import Memory
 from bbsd.expression.graph import Kind
+from bbsd.kernel import memory as kernel_memory
 
 LANES, ROBOTS = 4, 3
 
@@ -25,7 +26,7 @@ def memory():
 
 
 def run(lines):
-    scope = {"np": np}
+    scope = {**vars(kernel_memory)}
     exec("\n".join(lines), scope)
     return scope
 

@@ -3,7 +3,7 @@ import keyword
 import pytest
 
 from bbsd.compiler.naming import Namer, slot_text
-from bbsd.kernel import functions, streams
+from bbsd.kernel import functions, memory, streams
 from tests.unit.problems import episode_of, problem_of
 
 CALLED_AS_THE_KERNEL = """
@@ -38,7 +38,7 @@ def test_python_s_and_the_rollout_s_own_words_are_not_given_out(word):
 
 
 def test_what_a_rollout_calls_is_not_given_out():
-    names = (function.__name__ for function in functions.COMPILABLE + streams.COMPILABLE)
+    names = (function.__name__ for function in functions.COMPILABLE + memory.COMPILABLE + streams.COMPILABLE)
     called = [name for name in names if not name.startswith("_")]
     assert [Namer()(name) for name in called] == [f"{name}_" for name in called]
 
@@ -62,7 +62,8 @@ def test_slots_are_called_by_name_robot_and_place(slot, robots, text):
     [
         "select", "maximum", "minimum", "divide", "floor_divide", "modulo", "whole_power", "power", "clamp_index",
         "round_half_even", "fold", "word_of", "unit", "float", "bool", "np", "total", "lane", "key", "key_", "numbers",
-        "cells", "part_1", "draw_1", "share", "credit_nobody", "running_", "record",
+        "cells", "part", "zeros", "as_words", "add_where", "maximum_where", "cell_of",
+        "part_1", "draw_1", "share", "credit_nobody", "running_", "record",
     ],
 )  # fmt: skip
 def test_a_spec_may_use_the_names_of_the_kernel(name):

@@ -224,8 +224,8 @@ def test_an_operation_of_all_robots_is_written_once():
 
 def test_what_all_robots_hold_alike_is_stored_once():
     source = source_with(moving(**CASES["what all hold alike"]), 1, (Detail.CREDIT,))
-    assert "    twice = numbers[" in source
-    assert "    x = own_numbers[" in source
+    assert "    twice = part(numbers, " in source
+    assert "    x = part(own_numbers, " in source
 
 
 def test_robots_that_need_one_another_are_written_out():

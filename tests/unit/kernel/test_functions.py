@@ -322,6 +322,9 @@ EXPRESSIONS = (
     "floor_divide(x, y)",
     "power(x, y)",
     "select(is_finite(x) & (x < y), 1.0, 2.0)",
+    "add_where(x, x < y, y)",
+    "maximum_where(x, is_finite(x), y)",
+    "maximum_where(-5, x < y, cell_of(y < 1.0)) * 0.5",
 )
 
 

@@ -49,6 +49,31 @@ def callee(step: int, size: int) -> str:
     return f"from bbsd.kernel.jit import jit\nSIZE = {size}\n@jit\ndef step(n):\n    return n + {step}\n"
 
 
+KERNEL = """
+from bbsd.kernel import functions, jit
+
+library = {each.py_func.__name__: each for each in jit.LIBRARY}
+
+@jit.jit
+def total(n):
+    return functions.atan(n + 0.5) + functions.clamp_index(n, WORD)
+
+print(round(total(2.0), 5))
+print(*(sum(library[name].stats.cache_misses.values()) for name in ("atan", "clamp_index")))
+print(len(library["clamp_index"].signatures))
+"""
+
+
+def test_the_library_is_compiled_once_for_all_kernels_whatever_literals_they_call_it_with(
+    tmp_path: Path,
+) -> None:
+    found = []
+    for word in "57":
+        (tmp_path / "kernel.py").write_text(KERNEL.replace("WORD", word))
+        found.append(run("import kernel", tmp_path))
+    assert found == [["3.19029", "1", "1", "1"], ["3.19029", "0", "0", "1"]]
+
+
 def test_division_by_zero_is_an_infinity() -> None:
     @jit
     def quotient(a: float, b: float) -> float:

@@ -1,3 +1,4 @@
+import os
 import signal
 import threading
 
@@ -8,8 +9,7 @@ from bbsd.solver.interruption import Wish, heed, interrupts_noted, present_wish
 
 
 def interrupt():
-    # To the main thread: a signal to the process may reach a watching one, and two become one.
-    signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+    os.kill(os.getpid(), signal.SIGINT)
 
 
 def interrupt_and_heed(**options):
@@ -37,6 +37,16 @@ def test_an_interrupt_is_noted_and_heeded_later():
 def test_a_second_interrupt_is_python_s_own():
     with pytest.raises(KeyboardInterrupt):
         interrupt_twice()
+
+
+def test_who_ignores_interrupts_goes_on_doing_so():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with interrupts_noted():
+            interrupt()
+            heed()
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_whoever_wants_to_know_is_told_without_the_main_thread():
