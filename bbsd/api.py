@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from bbsd.compiler import DetailedOutcome
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
+    from bbsd.solver.processes import Processes
 
 EVALUATION = name_word("evaluation")
 EPISODES, EPISODES_AT_RANDOM = 1000, RANDOM_EPISODES
@@ -225,6 +226,7 @@ def design(
     overrides: Sequence[str] = (),
     progress: Callable[[Progress], None] | None = None,
     overdue: Callable[[Interrupted], object] | None = None,
+    ready: Processes | None = None,
 ) -> Designed:
     """Fill the holes of a spec and write what came of it into a folder.
 
@@ -235,6 +237,8 @@ def design(
 
     An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes too
     long, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
+
+    Processes that are `ready` do some of the runs; by default as many are started as are needed.
     """
     began = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
@@ -246,7 +250,7 @@ def design(
     with _reward_at_its_place(loaded), interrupts_noted(overdue and (lambda: overdue(stopped))):
         try:
             judged = judge(
-                answers(command, jobs, progress and _teller(command, progress)),
+                answers(command, jobs, progress and _teller(command, progress), ready),
                 problem,
                 command.settings,
                 seed,

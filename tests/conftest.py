@@ -1,4 +1,5 @@
 import os
+import signal
 from collections.abc import Callable
 from pathlib import Path
 
@@ -8,6 +9,9 @@ from hypothesis import settings
 GOLDEN = Path(__file__).parent / "golden"
 
 os.environ.setdefault("BBSD_CACHE_DIR", str(Path(__file__).parents[1] / ".cache" / "tests"))
+
+# A shell's background process ignores interrupts, and so would all that the tests start and interrupt.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile("untimed", deadline=None)  # machines differ, and a first call may compile
 settings.load_profile("untimed")

@@ -3,6 +3,7 @@
 import shlex
 import sys
 import time
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,8 +15,11 @@ from bbsd.report.figures import curves, require_figure
 from bbsd.report.plain import design_plain, json_text
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
     from bbsd.api import Designed
     from bbsd.solver.price import Price
+    from bbsd.solver.processes import Processes
 
 INTERRUPTED = 130
 CURVES = "curves.png"
@@ -58,53 +62,59 @@ def design(
     Evolves the behaviors, learns the structure, and writes the spec with both in it into a run's folder,
     beside the metrics of each generation and the state from which a stopped run goes on.
     """
-    from bbsd import api
-    from bbsd.report.progress import progress
+    from bbsd.spec.loading import load
+    from bbsd.text import Source
 
     if plot:
         require_figure(Path(CURVES))
-    if dry_run:
-        _show_price(
-            api.price(
-                spec,
-                seed=seed,
-                runs=runs,
-                lanes=lanes,
-                jobs=jobs,
-                starting=time.process_time() + (DRAWING if plot else 0.0),
-                overrides=overrides or (),
-            ),
-            as_json=as_json,
-        )
-        return
-    console = error_console()
+    # Mistakes are told before anything heavy is imported, and workers import it at the same time as this process.
+    loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides or ())
+    with _workers(0 if dry_run else min(runs, jobs) - 1) as ready:
+        from bbsd import api
+        from bbsd.report.progress import progress
 
-    def leave(stopped: api.Interrupted) -> None:
-        """End the process in the middle of what it does: what was kept is whole."""
-        console.show_cursor()
-        _say_how_to_go_on(stopped.folder, begin="\n" if console.is_terminal and not quiet else "")
-        leave_now(INTERRUPTED)
+        if dry_run:
+            starting = time.process_time() + (DRAWING if plot else 0.0)
+            price = api.price(loaded, seed=seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting)
+            _show_price(price, as_json=as_json)
+            return
+        console = error_console()
 
-    try:
-        with progress(console, quiet=quiet) as listener:
-            designed = api.design(
-                spec,
-                seed=seed,
-                runs=runs,
-                out=out,
-                resume=resume,
-                lanes=lanes,
-                jobs=jobs,
-                overrides=overrides or (),
-                progress=listener,
-                overdue=leave,
-            )
-    except api.Interrupted as stopped:
-        _say_how_to_go_on(stopped.folder)
-        raise typer.Exit(INTERRUPTED) from None
+        def leave(stopped: api.Interrupted) -> None:
+            """End the process in the middle of what it does: what was kept is whole."""
+            console.show_cursor()
+            _say_how_to_go_on(stopped.folder, begin="\n" if console.is_terminal and not quiet else "")
+            leave_now(INTERRUPTED)
+
+        try:
+            with progress(console, quiet=quiet) as listener:
+                designed = api.design(
+                    loaded,
+                    seed=seed,
+                    runs=runs,
+                    out=out,
+                    resume=resume,
+                    lanes=lanes,
+                    jobs=jobs,
+                    overrides=overrides or (),
+                    progress=listener,
+                    overdue=leave,
+                    ready=ready,
+                )
+        except api.Interrupted as stopped:
+            _say_how_to_go_on(stopped.folder)
+            raise typer.Exit(INTERRUPTED) from None
     _show(designed, seed, runs, as_json=as_json)
     if plot:
         _draw_curves(designed)
+
+
+def _workers(count: int) -> "AbstractContextManager[Processes | None]":
+    if count == 0:
+        return nullcontext()
+    from bbsd.solver.processes import waiting
+
+    return waiting(count)
 
 
 def _show_price(price: "Price", *, as_json: bool) -> None:

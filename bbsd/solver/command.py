@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.solver.folder import Folder
+    from bbsd.solver.processes import Processes
     from bbsd.solver.records import Records
     from bbsd.solver.settings import Settings
 
@@ -57,14 +58,16 @@ class Command:
         return progress.answer
 
 
-def answers(command: Command, jobs: int, tell: Tell | None = None) -> list[Architecture]:
+def answers(
+    command: Command, jobs: int, tell: Tell | None = None, ready: Processes | None = None
+) -> list[Architecture]:
     """The answers of all runs, in their order; with several jobs the runs that are left go side by side."""
     found = {run: command.answer(run) for run in range(command.n_runs)}
     left = [run for run, answer in found.items() if answer is None]
     if min(len(left), jobs) > 1:
         from bbsd.solver.workers import side_by_side
 
-        found |= side_by_side(command, left, jobs, tell)
+        found |= side_by_side(command, left, jobs, tell, ready)
     else:
         found |= {run: command.complete(run, tell) for run in left}
     return [answer for answer in found.values() if answer is not None]

@@ -47,6 +47,10 @@ class Processes:
         self.used = True
         return self._executor.submit(function, *arguments)
 
+    def dismiss(self) -> None:
+        """Have them end once they have done what was submitted."""
+        self._executor.shutdown(wait=False)
+
     def cut(self) -> None:
         """Have them stop; from any thread."""
         with self._cutting:

@@ -1,4 +1,5 @@
 from collections import deque
+from contextlib import nullcontext
 
 import pytest
 
@@ -7,6 +8,7 @@ from bbsd.solver import workers
 from bbsd.solver.command import Command, answers
 from bbsd.solver.folder import Folder
 from bbsd.solver.interruption import Wish, interrupts_noted
+from bbsd.solver.processes import waiting
 from bbsd.solver.workers import WorkerLost, side_by_side
 from tests.unit.solver.problems import guess
 
@@ -41,6 +43,14 @@ def test_runs_side_by_side_have_the_answers_and_records_of_runs_one_after_the_ot
         assert [line for line in told if line["run"] == run + 1] == alone.records(run).lines()
 
 
+def test_workers_that_are_ready_are_taken_also_where_they_are_more_than_needed(command):
+    alone, together = command("alone"), command("together")
+    with waiting(2) as ready:
+        found = side_by_side(together, [1, 2], 2, None, ready)
+        assert ready.used
+    assert plain(found[run] for run in (1, 2)) == plain(answers(alone, 1)[1:])
+
+
 def test_an_error_of_who_is_told_stops_all(command):
     def tell(_line):
         raise OSError("no more")
@@ -58,11 +68,12 @@ def test_jobs_that_are_left_over_are_threads(monkeypatch, command, jobs, expecte
     class Enough(Exception):
         pass
 
-    def started(count, of_workers):
+    def at_work(count, of_workers):
         seen.extend([count, of_workers.problem.jobs])
         raise Enough
 
-    monkeypatch.setattr(workers, "_workers", started)
+    monkeypatch.setattr(workers, "waiting", nullcontext)
+    monkeypatch.setattr(workers, "_at_work", at_work)
     with pytest.raises(Enough):
         side_by_side(command("jobs"), [*range(RUNS)], jobs, None)
     n_workers, threads, own = expected
