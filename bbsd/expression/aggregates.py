@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MAX_ELEMENTS = 10_000
 """Of a list, with those of the lists in it."""
 
-ELEMENT_WORK = 4
+ELEMENT_WORK = 5
 
 
 class Element(NamedTuple):
@@ -117,8 +117,8 @@ def _generated(each: Each, scope: Scope, elaborate: Elaborate) -> list[Element] 
         if names is None:
             return None
         draws = scope.draws and replace(scope.draws, elements=(*scope.draws.elements, place))
-        inner = replace(scope, local={**scope.local, **names}, draws=draws)
-        elements.append(Element(item, elaborate(each.element, inner), each.element.span))
+        value = elaborate(each.element, scope.inside(names, draws))
+        elements.append(Element(item, value, each.element.span))
     return None if items is None else elements
 
 

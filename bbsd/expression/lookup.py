@@ -149,7 +149,7 @@ def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -
     values: list[Value] = [scope.graph.unknown] * scope.robots
     last = scope.robots - 1
     for robot in [clamp_index(value_of(chosen), last)] if chosen.literal else range(scope.robots):
-        values[robot] = name_value(of, replace(scope, robot=robot), elaborate)
+        values[robot] = name_value(of, scope.of_robot(robot), elaborate)
         if isinstance(values[robot], tuple):
             return None
     return tuple(values)

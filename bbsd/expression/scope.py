@@ -142,6 +142,22 @@ class Scope:
         place = Draws(".".join(str(part) for part in path)) if draws else None
         return replace(self, path=path, robot=robot, draws=place, local={})
 
+    # The two that are made most often, by hand: `replace` takes three times as long.
+
+    def inside(self, names: Mapping[str, Value], draws: Draws | None) -> Scope:
+        """Where these names are known too, as in an element of a generator."""
+        return Scope(
+            self.graph, self.names, self.findings, self.robots, self.robot, self.behavior, self.path,
+            {**self.local, **names}, self.before, self.starting, draws, self.static, self.memo, self.unseen,
+        )  # fmt: skip
+
+    def of_robot(self, robot: int) -> Scope:
+        """The same place, seen by another robot."""
+        return Scope(
+            self.graph, self.names, self.findings, self.robots, robot, self.behavior, self.path,
+            self.local, self.before, self.starting, self.draws, self.static, self.memo, self.unseen,
+        )  # fmt: skip
+
     def known(self, node: Node) -> float | None:
         """The value of a node, where it is the same for the whole run."""
         return float(value_of(node)) if node.literal else self.static(node)

@@ -127,7 +127,7 @@ def _too_high(
     weights = {name: needs.frames for name, needs in group.items()}
     found = {name: Unusable() for name, height in heights(uses, weights).items() if height > MAX_HEIGHT}
     for name in found:
-        if uses[name].isdisjoint(found):
+        if found.keys().isdisjoint(uses[name]):  # the other way round would go through all that was found
             message = f"{name} needs too long a chain of values, each computed from the next"
             findings.tell(places[name], "BB060", message, KEY, "keep one of them as state")
     return found
