@@ -39,10 +39,12 @@ EXPENSIVE = frozenset(
 """Operations that have a line, and perhaps a loop, of their own."""
 LEAF = frozenset({"slot", "constant", "step", "start"})
 """Operations that read a value where it stands."""
-STANDING = frozenset({"over", "each"})
+STANDING = frozenset({"over", "each", "among"})
 """Operations whose value stands in an array as soon as it is computed."""
-CROSSING = frozenset({"of", "other"})
+CROSSING = frozenset({"of", "other", "theirs"})
 """Operations that read what another robot's loop computes."""
+STORED = frozenset({"slot", "table", "pick"})
+"""What stands somewhere before a step is computed."""
 STEMS = {Level.CALL: "fixed", Level.STEP: "now", Level.ROBOT: "its"}
 """Of the names of values that mean nothing to the designer, by how often they change."""
 TOP_BIT = 1 << 63  # a literal from here on is uint64 in compiled code
@@ -126,6 +128,8 @@ class Emitter:
                 return self.blocks.step
             case Level.ROBOT:
                 return self.blocks.robot(into.stage)
+            case Level.PAIR:
+                return into
         return self.blocks.stage(self.stage_of.get(node.number, 0))
 
     def _write_deep(self, node: Node, into: Block) -> None:
@@ -133,8 +137,7 @@ class Emitter:
         if not self.deep:
             return
         for operand in needed(node.operands):
-            reachable = operand.level is not Level.ROBOT or into.level in (Level.ROBOT, Level.EACH)
-            if operand.number in self.deep and reachable:
+            if operand.number in self.deep and _is_reachable(operand, into):
                 self._write(operand, self._home(operand, into))
                 self.deep.remove(operand.number)
 
@@ -151,7 +154,7 @@ class Emitter:
             return self.leaf(node)
         if node.operation in STANDING:
             return self.loops.standing(node, self)
-        if node.operation in CROSSING and node.operands[0].operation == "slot" and node.level is into.level:
+        if node.operation in CROSSING and node.operands[0].operation in STORED and node.level is into.level:
             return self.loops.text(node, into, self)
         home = self._home(node, into)
         if node.number in home.names or node.number in into.names:
@@ -195,7 +198,7 @@ class Emitter:
                 return self._draw(node, into), ATOM
             case "gather":
                 return self._gather(node, into), ATOM
-            case "table" | "pick" | "of" | "other":
+            case "table" | "pick" | "of" | "other" | "theirs" | "so_far":
                 return self.loops.text(node, into, self)
         arguments = [self._text(operand, into)[0] for operand in operands]
         return self.call(operation, [*arguments, *_data(node)]), ATOM
@@ -239,6 +242,16 @@ def _deep(nodes: Iterable[Node]) -> set[int]:
         depth = 1 + max((depths[operand.number] for operand in node.operands), default=-1)
         depths[node.number] = depth % DEEPEST
     return {node.number for node in nodes if node.operands and depths[node.number] == 0}
+
+
+def _is_reachable(node: Node, into: Block) -> bool:
+    """Whether a value can be written for a block."""
+    match node.level:
+        case Level.ROBOT:
+            return into.level in (Level.ROBOT, Level.EACH, Level.PAIR)
+        case Level.PAIR:
+            return into.level is Level.PAIR
+    return True
 
 
 def _data(node: Node) -> list[str]:

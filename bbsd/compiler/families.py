@@ -6,25 +6,20 @@ so on down to the leaves; then a kernel can write the operation once, in a loop 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import Counter
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING, cast
 
+from bbsd.compiler.folds import Family, Fold, Folds, Key, Plan
+from bbsd.compiler.pairs import FOLDS, Pairs
 from bbsd.expression.graph import Level, Node
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator, Sequence
 
     from bbsd.compiler.robot_graph import Gathered, RobotGraph
     from bbsd.spec.meaning.names import Slot
-
-FOLDS = frozenset({"+", "*", "minimum", "maximum", "&", "|"})
-
-Key = int | tuple[int, ...]
-"""A value of the team by its node's number; a family by those of its nodes."""
-
-Plan = tuple[Sequence[Key], Callable[[Sequence[Node]], Node | None]]
-"""What a node needs, and what makes it of that: None where this way does not do."""
 
 
 class CircularError(Exception):
@@ -39,14 +34,19 @@ class Families:
     """Where the nodes are made; those of all moments of an episode in one."""
     team_slots: frozenset[tuple[str, tuple[int, ...]]]
     """Name and place of what all robots always hold alike: stored once."""
-    found: dict[Key, Node] = field(default_factory=dict)
+    found: dict[Key, Node | None] = field(default_factory=dict)
+    """None for pairs of robots that have nothing in common."""
     _nodes: dict[int, Node] = field(default_factory=dict)
     _owners: dict[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
     """The family that a node belongs to, and whose value in it it is."""
-    _refused: set[Key] = field(default_factory=set)
-    """Keys for which the short way did not do."""
+    _failed: Counter[Key] = field(default_factory=Counter)
+    """How many ways of making a node did not do."""
     _apart: set[int] = field(default_factory=set)
     """Nodes of families that have nothing in common."""
+
+    def __post_init__(self) -> None:
+        """Loops over pairs read the same families."""
+        self._folds = Folds(self.new, self.team_slots, self._key, self._owners)
 
     def know(self, families: Iterable[Sequence[Node]]) -> None:
         """Learn which nodes mean the same thing of different robots, whoever reads them."""
@@ -70,7 +70,7 @@ class Families:
         """The new node of a family if it was made."""
         return self.found.get(self._key(nodes))
 
-    def _key(self, nodes: Sequence[Node]) -> Key:
+    def _key(self, nodes: Sequence[Node]) -> Family:
         self._nodes.update((node.number, node) for node in nodes)
         numbers = tuple(node.number for node in nodes)
         return numbers[0] if len(set(numbers)) == 1 else numbers
@@ -83,7 +83,7 @@ class Families:
             if key in self.found:
                 waiting.pop()
                 continue
-            needs, build = self._plan(key)
+            needs, build = self._way(key)
             missing = [need for need in needs if need not in self.found]
             if missing:
                 begun.add(key)
@@ -91,34 +91,46 @@ class Families:
                     raise CircularError
                 waiting.extend(missing)
                 continue
-            made = build([self.found[need] for need in needs])
+            operands = [self.found[need] for need in needs]
+            made = None if None in operands else build(cast("list[Node]", operands))
             begun.discard(key)
-            if made is None:
-                self._refused.add(key)
-            else:
+            if made is not None or isinstance(key, Pairs | Fold):
                 self.found[key] = made
-        return self.found[wanted]
+            else:
+                self._failed[key] += 1
+        return cast("Node", self.found[wanted])
 
-    def _plan(self, key: Key) -> Plan:
-        if isinstance(key, int):
-            return self._plan_of_team(self._nodes[key], refused=key in self._refused)
-        return self._plan_of_each([self._nodes[number] for number in key], refused=key in self._refused)
+    def _way(self, key: Key) -> Plan:
+        """The best way that did not fail yet."""
+        *_, plan = islice(self._ways(key), self._failed[key] + 1)
+        return plan
+
+    def _ways(self, key: Key) -> Iterator[Plan]:
+        """Ways of making a node, the best first; the last one always does, but for pairs."""
+        match key:
+            case int():
+                return self._ways_of_team(self._nodes[key])
+            case tuple():
+                return self._ways_of_each([self._nodes[number] for number in key])
+            case Pairs():
+                return iter([self._folds.plan_of_pairs(key)])
+            case Fold():
+                return iter([self._folds.plan_of_fold(key.number)])
 
     # --- Values of the team
 
-    def _plan_of_team(self, node: Node, *, refused: bool) -> Plan:
+    def _ways_of_team(self, node: Node) -> Iterator[Plan]:
         match node.operation:
             case "slot":
-                return (), lambda _: self._team_slot(node)
+                yield (), lambda _: self._team_slot(node)
             case "choice":
-                return (), lambda _: self.new.of(self.new.choice(), cast("int", node.data))
-        if not refused and node.number in self._owners and node.number not in self._apart:
+                yield (), lambda _: self.new.of(self.new.choice(), cast("int", node.data))
+        if node.number in self._owners and node.number not in self._apart:
             family, robot = self._owners[node.number]
-            return (family,), lambda made: self._member(made[0], robot)
-        spine = None if refused else self._spine(node)
-        if spine is not None:
-            return (spine,), lambda made: self._folded(node, made[0])
-        return [self._key([operand]) for operand in node.operands], lambda made: self.new.again([node], made)
+            yield (family,), lambda made: self._member(made[0], robot)
+        elif (spine := self._spine(node)) is not None:
+            yield (spine,), lambda made: self._folded(node, made[0])
+        yield [self._key([operand]) for operand in node.operands], lambda made: self.new.again([node], made)
 
     def _team_slot(self, node: Node) -> Node:
         name, robot, place = cast("Slot", node.data)
@@ -153,24 +165,25 @@ class Families:
 
     # --- Families
 
-    def _plan_of_each(self, nodes: Sequence[Node], *, refused: bool) -> Plan:
+    def _ways_of_each(self, nodes: Sequence[Node]) -> Iterator[Plan]:
         first = nodes[0]
         if all(node.operation == "choice" for node in nodes):
-            return (), lambda _: self.new.other(self.new.choice(), [cast("int", node.data) for node in nodes])
+            yield (), lambda _: self.new.other(self.new.choice(), [cast("int", node.data) for node in nodes])
         if self._are_one_slot(nodes):
             robots = [cast("int", cast("Slot", node.data)[1]) for node in nodes]
-            return (), lambda _: self.new.other(self.new.slot(first, Level.EACH), robots)
-        if not refused and (seen := self._seen_of(nodes)) is not None:
+            yield (), lambda _: self.new.other(self.new.slot(first, Level.EACH), robots)
+        if (seen := self._seen_of(nodes)) is not None:
             family, robots = seen
-            return (family,), lambda made: self._seen(made[0], robots)
+            yield (family,), lambda made: self._seen(made[0], robots)
         if all(node.literal for node in nodes):
-            return (), lambda _: self.new.varied("table", nodes)
+            yield (), lambda _: self.new.varied("table", nodes)
         if all(node.operation == "constant" for node in nodes):
-            return (), lambda _: self.new.varied("pick", nodes)
+            yield (), lambda _: self.new.varied("pick", nodes)
         if _are_alike(nodes):
+            yield from self._folds.plans_of_each(nodes)
             needs = [self._key(operands) for operands in zip(*(node.operands for node in nodes), strict=True)]
-            return needs, lambda made: self.new.again(nodes, made)
-        return self._plan_one_by_one(nodes)
+            yield needs, lambda made: self.new.again(nodes, made)
+        yield self._plan_one_by_one(nodes)
 
     def _are_one_slot(self, nodes: Sequence[Node]) -> bool:
         if any(node.operation != "slot" for node in nodes):

@@ -128,6 +128,13 @@ class Frame:
         inner = ["own = robot * stride", *before, *(line for body in loops for line in self.lane_loop(body))]
         return [f"for robot in range({self.team}):", *indented(inner, 1)]
 
+    def pair_loop(self, head: Iterable[str], loops: Iterable[Iterable[str]], *, others: bool) -> list[str]:
+        """Lines and then bodies of loops over lanes, done for every robot that the present one looks at."""
+        looked = f"pair + {self.call_of('cell_of', 'robot <= pair')}" if others else "pair"
+        inner = [f"other = {looked}", "theirs = other * stride", *head]
+        inner += [line for body in loops for line in self.lane_loop(body)]
+        return [f"for pair in range({self.team - others}):", *indented(inner, 1)]
+
     def emitter(self, step: str, *, hinted: bool = True) -> Emitter:
         """An emitter with fresh blocks for a step and a lane."""
         blocks = Blocks(self.call, self.looped)

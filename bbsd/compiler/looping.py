@@ -24,6 +24,8 @@ class Loops:
     frame: Frame
     arrays: dict[int, str] = field(default_factory=dict)
     """By node, where the values stand that are stored as soon as they are computed."""
+    folds: dict[tuple[int, int], str] = field(default_factory=dict)
+    """By stage and number, where what a loop over pairs folds stands."""
     seen: dict[tuple[int, tuple[int, ...]], str] = field(default_factory=dict)
     """By stage, where the values of the robots begin that are seen in it."""
 
@@ -39,11 +41,14 @@ class Loops:
     def text(self, node: Node, into: Block, emitter: Emitter) -> Text:
         """The source of what is a robot's own, or is seen of another one."""
         match node.operation:
-            case "table":
-                return self._table(node), ATOM
-            case "pick":
-                places = cast("tuple[int, ...]", node.data)
-                return f"constants[{self.by_robot(map(str, places))}]", ATOM
+            case "table" | "pick":
+                return self._of_robot(node, "robot"), ATOM
+            case "so_far":
+                return self.frame.read(self.folds[into.stage, cast("int", node.data)], node.kind)
+            case "theirs" if node.operands[0].operation in ("table", "pick"):
+                return self._of_other(node, into), ATOM
+            case "theirs":
+                robot = "theirs", ATOM
             case "of":
                 robot = times(cast("int", node.data), ("stride", ATOM))
             case _:
@@ -61,7 +66,7 @@ class Loops:
         match node.operation:
             case "slot":
                 return self.frame.slot_of(node)
-            case "over" | "each":
+            case "over" | "each" | "among":
                 if node.number not in self.arrays:
                     self.arrays[node.number] = self._stored(node, emitter)
                 return self.arrays[node.number]
@@ -69,7 +74,9 @@ class Loops:
         return self._kept(emitter.repeatable(node, home)[0], node, home)
 
     def _stored(self, node: Node, emitter: Emitter) -> str:
-        """The array of a value that is stored in the stage before its own."""
+        """The array of a value that is stored in the stage before its own, or in a loop over pairs before its own."""
+        if node.operation == "among":
+            return self._fold_among(node, emitter)
         block = emitter.blocks.stage(emitter.stage_of[node.number] - 1)
         store = self._fold if node.operation == "over" else self._gather
         return store(node, block, emitter)
@@ -87,6 +94,33 @@ class Loops:
         first = frame.call_of("select", "robot == 0", value[0], folded)
         block.lines.append(frame.store(array, first, node.kind))
         return array
+
+    def _fold_among(self, node: Node, emitter: Emitter) -> str:
+        """Fold for each robot what it sees of those that it looks at, in the loop over them."""
+        others, numbers = cast("tuple[bool, tuple[int, ...]]", node.data)
+        stage = emitter.stage_of[node.number]
+        block, new = emitter.blocks.pair(stage, others=others), list[int]()
+        for number in numbers:
+            if (stage, number) not in self.folds:
+                hinted = emitter.hints.get(node.number) if number == numbers[0] else None
+                self.folds[stage, number] = (
+                    self.frame.keep(hinted, node.operands[0].kind, node.level)
+                    if hinted
+                    else self.frame.keep_numbered("over", node.operands[0].kind, node.level)
+                )
+                new.append(number)
+        for number, following, first in zip(numbers, node.operands[::2], node.operands[1::2], strict=True):
+            if number in new:
+                self._write_fold(number, following, first, block, emitter)
+        return self.folds[stage, numbers[0]]
+
+    def _write_fold(self, number: int, following: Node, first: Node, block: Block, emitter: Emitter) -> None:
+        """Compute what follows for one more robot; it is stored when all that is so far has been read."""
+        array = self.folds[block.stage, number]
+        begun, further = emitter.value(first, block), emitter.value(following, block)
+        name = self.frame.namer(f"next_{array}")
+        block.assign(name, self.frame.call_of("select", "pair == 0", begun, further), following.kind)
+        block.last.append(self.frame.store(array, name, following.kind))
 
     def _gather(self, node: Node, block: Block, emitter: Emitter) -> str:
         """Compute values that have nothing in common one by one."""
@@ -119,14 +153,23 @@ class Loops:
             return sum_of([(str(k), ATOM), (self.frame.call_of("cell_of", f"robot <= {k}"), ATOM)])
         return self.by_robot(map(str, robots)), ATOM
 
-    def _table(self, node: Node) -> str:
-        values = [value for value, _ in cast("tuple[tuple[Any, str], ...]", node.data)]
-        return self.by_robot(
-            number_text(value)[0] if node.kind is Kind.NUMBER else str(value) for value in values
-        )
+    def _of_other(self, node: Node, into: Block) -> str:
+        """The name of a literal or a constant of the robot looked at, which all lanes have alike."""
+        if node.number not in into.names:
+            into.names[node.number] = self.frame.namer.numbered("its")
+            into.head.append(f"{into.names[node.number]} = {self._of_robot(node.operands[0], 'other')}")
+        return into.names[node.number]
 
-    def by_robot(self, texts: Iterable[str]) -> str:
-        """The robot's entry of a table that stands before the function."""
+    def _of_robot(self, node: Node, robot: str) -> str:
+        """A literal or a constant of the robot that a variable names."""
+        if node.operation == "pick":
+            return f"constants[{self.by_robot(map(str, cast('tuple[int, ...]', node.data)), robot)}]"
+        values = [value for value, _ in cast("tuple[tuple[Any, str], ...]", node.data)]
+        texts = (number_text(value)[0] if node.kind is Kind.NUMBER else str(value) for value in values)
+        return self.by_robot(texts, robot)
+
+    def by_robot(self, texts: Iterable[str], robot: str = "robot") -> str:
+        """A robot's entry of a table that stands before the function."""
         text = f"({', '.join(texts)})"
         name = self.frame.tables.setdefault(text, f"BY_ROBOT_{len(self.frame.tables) + 1}")
-        return f"{name}[robot]"
+        return f"{name}[{robot}]"

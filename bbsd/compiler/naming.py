@@ -15,6 +15,7 @@ OWN = (
     "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "words", "tables",
     "origins", "priorities", "constants", "returns", "credit", "terms", "control", "taken", "odd", "held", "record",
     "running", "rollout", "numbers", "cells", "streams", "own", "own_numbers", "own_cells", "stride", "robot",
+    "pair", "other", "theirs",
     "abs", "float", "int", "range",
 )  # fmt: skip
 """What a rollout itself uses: arguments, variables, built-in functions."""

@@ -7,6 +7,10 @@ Nodes that are met only here:
 - `over` (data: operation): a family folded robot after robot, as `min(height[r] for r in team)` is;
 - `table` (data: values), `pick` (data: positions): literals, constants that differ from robot to robot;
 - `each`: values that have nothing in common, computed one by one;
+- `theirs` (data: whether of the others): in a loop over robots looked at, the value of the one;
+- `so_far` (data: the fold's number): there, what is folded of those before;
+- `among` (data: whether the others, the folds' numbers): a robot's fold over those it looks at; its operands are, for
+  this fold and each that it needs in the same loop, the next value and the first one;
 - a `draw` with a word, a `gather` with a base for each robot.
 """
 
@@ -55,6 +59,20 @@ class RobotGraph:
     def over(self, family: Node, operation: str) -> Node:
         """A family folded."""
         return self.graph.make("over", (family,), operation, family.kind, Level.LANE)
+
+    def theirs(self, family: Node, *, others: bool) -> Node:
+        """The value of the robot looked at."""
+        return self.graph.make("theirs", (family,), others, family.kind, Level.PAIR)
+
+    def so_far(self, fold: int, kind: Kind) -> Node:
+        """What is folded so far."""
+        return self.graph.leaf("so_far", fold, kind, Level.PAIR)
+
+    def among(self, folds: Sequence[tuple[int, Node, Node]], *, others: bool) -> Node:
+        """The first fold, given by its number, the next value and the first one, with the others that it needs."""
+        operands = tuple(node for _, following, first in folds for node in (following, first))
+        data = others, tuple(fold for fold, _, _ in folds)
+        return self.graph.make("among", operands, data, operands[0].kind, Level.EACH)
 
     def varied(self, operation: str, nodes: Sequence[Node]) -> Node:
         """A `table` of literals or a `pick` of constants."""

@@ -1,7 +1,8 @@
 """In which loop of a step each value is computed, where there are loops over robots.
 
 Loops over the team's lanes (even stages, from 0) and loops over robots and lanes (odd stages) take turns. A value
-stands in the first loop in which all that it needs is there. Without loops over robots all is in stage 0.
+stands in the first loop in which all that it needs is there. Loops over pairs of robots stand in a loop over robots,
+before its lanes. Without loops over robots all is in stage 0.
 """
 
 from __future__ import annotations
@@ -41,11 +42,22 @@ def last(nodes: Iterable[Node], found: Mapping[int, int], level: Level) -> int:
 def _stage(node: Node, found: Mapping[int, int], decided: int) -> int:
     if node.operation == "choice":
         return decided
+    if node.level is Level.PAIR or node.operation == "among":
+        return max((_kept_before(operand, found) for operand in node.operands), default=FIRST[Level.EACH])
     if node.level not in FIRST:
         return 0
     if node.operation in ("of", "over", "other"):
         return _after(node, node.operands[0], found)
     return last(node.operands, found, node.level)
+
+
+def _kept_before(node: Node, found: Mapping[int, int]) -> int:
+    """The first stage of the robots in which a loop over pairs reads a value: it comes before the lanes of a stage."""
+    if node.level is Level.PAIR:
+        return found[node.number]
+    if node.operation == "slot" or node.level not in FIRST:
+        return FIRST[Level.EACH]
+    return found[node.number] + (2 if node.level is Level.EACH else 1)
 
 
 def _after(node: Node, family: Node, found: Mapping[int, int]) -> int:

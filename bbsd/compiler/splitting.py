@@ -33,12 +33,16 @@ SHORTEST, LONGEST = 12, 60
 def written(blocks: Blocks, frame: Frame, *, split: bool = True, apart: Sequence[str] = ()) -> list[str]:
     """The lines of all stages' loops, in their order; those `apart` in one more loop over lanes behind the last one."""
     lines = [*blocks.step.lines]
-    every = [(block, robot) for block, robot in blocks.every() if block.lines]
-    for block, robot in every:
-        bodies = loops(block, frame) if split else [block.lines]
-        bodies += [[*apart]] if apart and block is every[-1][0] else []
+    every = [stage for stage in blocks.every() if not stage.is_empty]
+    for stage in every:
+        block = stage.block
+        bodies = [body for body in (loops(block, frame) if split else [block.lines]) if body]
+        bodies += [[*apart]] if apart and stage is every[-1] else []
         if block.level is Level.EACH:
-            lines += frame.robot_loop(robot.lines if robot else (), bodies)
+            before = [*(stage.robot.lines if stage.robot else ())]
+            for others, pair in stage.pairs.items():
+                before += frame.pair_loop(pair.head, loops(pair, frame), others=others)
+            lines += frame.robot_loop(before, bodies)
         else:
             lines += [line for body in bodies for line in frame.lane_loop(body)]
     return lines
@@ -49,7 +53,7 @@ def loops(block: Block, frame: Frame) -> list[list[str]]:
 
     Each begins with the values that others computed and ends with storing those that others need.
     """
-    parts = _cut(block.lines)
+    parts = _cut([*block.lines, *block.last])
     used = [set(NAME.findall("\n".join(part))) for part in parts]
     born = [[match[1] for match in map(DEFINED.match, part) if match] for part in parts]
     kept, read = dict(block.kept), dict(block.read)

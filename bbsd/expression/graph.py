@@ -35,8 +35,8 @@ class Kind(Enum):
 class Level(IntEnum):
     """How often a value changes: each level is computed outside the loops of the next.
 
-    ROBOT and EACH are met only where a kernel loops over robots (`compiler.families`): ROBOT changes from robot to
-    robot but not from lane to lane, EACH does both.
+    The last three are met only where a kernel loops over robots (`compiler.families`): ROBOT changes from robot to
+    robot but not from lane to lane, EACH does both, PAIR also with the robot looked at.
     """
 
     CALL = 0
@@ -44,6 +44,7 @@ class Level(IntEnum):
     LANE = 2
     ROBOT = 3
     EACH = 4
+    PAIR = 5
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from bbsd.compiler import compile_meaning
+from bbsd.compiler import compile_meaning, folds
 from bbsd.compiler.frame import Detail
 from bbsd.compiler.rolling import MOST_WRITTEN_OUT, rolled
 from bbsd.spec.meaning import mean
@@ -172,10 +172,154 @@ CASES = {
 }
 
 
+PAIRS = {
+    "sums and counts": {
+        "sensors": {
+            "crowd": "sum(abs(x[r] - x) for r in others)",
+            "close": "sum(1 if hypot(x[r] - x, y[r] - y) < 1 else 0 for r in others)",
+            "with_me": "sum(1 if abs(x[r] - x) < 1 else 0 for r in team)",
+            "pull": "mean((x[r] - x) / (1 + abs(y[r] - y)) for r in others)",
+        },
+        "dynamics": {"x": "x + 0.1 * pull - 0.01 * crowd", "y": "y + close - with_me / 8"},
+    },
+    "truths": {
+        "sensors": {
+            "alone": "all(abs(x[r] - x) > 0.2 for r in others)",
+            "met": "any(armed[r] and x[r] > x for r in others)",
+            "passed": "any(before(x[r]) < before(x) and x[r] > x for r in others)",
+        },
+        "dynamics": {"armed": "alone or not met", "y": "y + (1 if passed else 0)"},
+        "right": {"excited": "alone"},
+    },
+    "the nearest and the farthest": {
+        "definitions": {
+            "mate": "argmin(hypot(x[r] - x, y[r] - y) for r in others)",
+            "far": "argmax(abs(x[r] - x) for r in team)",
+            "gap": "x - x[mate]",
+        },
+        "sensors": {
+            "of_mate": "gap[mate] + y[far]",
+            "both": "min(abs(x[r] - x) for r in others) + abs(x[mate] - x)",
+        },
+        "dynamics": {"x": "x + gap / 4", "y": "y + of_mate - both"},
+    },
+    "values of the robot that is looked at": {
+        "definitions": {"size": "hypot(x, y)", "twin": "argmin(size[r] - r for r in others)"},
+        "sensors": {
+            "s": "sum(r * size[r] + (x[r] + y[r]) ** 2 * x for r in others)",
+            "t": "max(size[r] if armed[r] else -r for r in others)",
+            "u": "sum(table[r % 4][0] * x[r] + wind * y for r in others)",
+        },
+        "dynamics": {"x": "x + sin(s) + cos(t)", "y": "y[twin] + u / 100"},
+    },
+    "folds in folds": {
+        "sensors": {
+            "worst": "max(min(abs(x[q] - x[r] - 1) for q in team) for r in others)",
+            "crowd": "sum(abs(x[r] - x) for r in others)",
+            "calm": "min(crowd[r] + x for r in others)",
+        },
+        "dynamics": {"y": "y + worst - calm"},
+    },
+    "folds of three robots": {
+        "sensors": {
+            "spread": "sum(max(x[q] * y[r] - x for q in others) for r in others)",
+            "apart": "min(abs(x[r] - x) + abs(r - robot) for r in others)",
+        },
+        "dynamics": {"y": "y + apart - spread / 100"},
+    },
+    "more than the fold": {
+        "sensors": {"s": "1 + sum(x[r] * x for r in others) - y + wind + min(x[r] for r in others)"},
+        "dynamics": {"y": "s / 9", "wind": "wind + sum(x[r] for r in team)"},
+    },
+    "roles among them": {
+        "sensors": {
+            "s": "sum(x[r] - x if robot == 0 else x[r] + x for r in others)",
+            "t": "sum(x[r] * x if r == 0 else y[r] - y for r in others)",
+        },
+        "dynamics": {"y": "y + s - t"},
+    },
+    "draws for each": {
+        "sensors": {"s": "min(abs(x[r] - x) + normal(0, 0.1) for r in others)"},
+        "dynamics": {"y": "y + s"},
+    },
+    "another robot of the one that is looked at": {
+        "state": {"y": 2},
+        "sensors": {
+            "s": "sum(x[(r + 1) % robots] * y[r] - x for r in others)",
+            "t": "min(x[mate[r]] - x for r in others)",
+        },
+        "definitions": {"mate": "argmin(abs(x[r] - x) for r in others)"},
+        "dynamics": {"x": "x + s / 50 - t"},
+    },
+    "at the start": {"state": {"z": "sum(abs(x[r] - x) for r in others)"}, "dynamics": {"y": "y + z"}},
+    "rewards and ends": {
+        "reward": {"near": "-min(abs(x[r] - x) for r in others)", "wind": "wind"},
+        "ends": "any(min(abs(x[q] - x[r]) for q in team) > 1 for r in team) or x[0] > 5",
+    },
+    "not finite": {
+        "sensors": {
+            "s": "sum(1 / (floor(x[r]) - floor(x)) for r in others)",
+            "t": "max(log(x[r] - x) for r in others)",
+        },
+        "dynamics": {"y": "y + argmax(t[r] + s[r] - s for r in others)"},
+    },
+}
+
+
 @pytest.mark.parametrize("lanes", [1, 2])
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_loops_change_no_bit(case, lanes):
     assert_loops_change_no_bit(moving(lanes=lanes, **case))
+
+
+@pytest.fixture
+def paired(monkeypatch):
+    """Robots that look at five or more have loops over those that they look at."""
+    monkeypatch.setattr(folds, "MOST_WRITTEN_OUT", 4)
+
+
+@pytest.mark.usefixtures("paired")
+@pytest.mark.parametrize("robots", [6, 9])
+@pytest.mark.parametrize("case", PAIRS.values(), ids=PAIRS)
+def test_loops_over_pairs_change_no_bit(case, robots):
+    assert_loops_change_no_bit(moving(robots=robots, lanes=2, **case))
+
+
+@pytest.mark.usefixtures("paired")
+def test_loops_over_pairs_are_compiled_to_the_same_bits():
+    case = {"robots": 7, "lanes": 8, **PAIRS["the nearest and the farthest"]}
+    expected = bits(with_loops(moving(**case, compiled=True), 100), 20)
+    assert bits(with_loops(moving(**case, compiled=True), 1), 20) == expected
+    assert bits(with_loops(moving(**case), 1), 20) == expected
+
+
+WRITTEN_OUT = {"roles among them", "draws for each", "folds of three robots"}
+
+
+@pytest.mark.parametrize("case", [case for case in PAIRS if case not in WRITTEN_OUT])
+def test_the_source_does_not_grow_with_the_number_of_robots_that_look_at_one_another(case):
+    few, many = (
+        source_with(moving(robots=robots, **PAIRS[case]), MOST_WRITTEN_OUT, (Detail.CREDIT,))
+        for robots in (11, 16)
+    )
+    assert "for pair in range(10):" in few
+    assert len(many.splitlines()) == len(few.splitlines())
+
+
+@pytest.mark.parametrize(("robots", "n_loops"), [(8, 0), (9, 0), (10, 1)])
+def test_few_robots_that_are_looked_at_are_written_out(robots, n_loops):
+    problem = moving(robots=robots, sensors={"s": "sum(x[r] * x for r in others)"}, dynamics={"y": "s"})
+    source = source_with(problem, MOST_WRITTEN_OUT, (Detail.CREDIT,))
+    assert source.count("for pair in") == 2 * n_loops  # at the start and in a step
+
+
+def test_a_literal_of_the_robot_looked_at_is_read_before_the_lanes():
+    problem = moving(robots=12, sensors={"s": "argmin(abs(x[r] - x) for r in others)"}, dynamics={"y": "s"})
+    lines = [line.strip() for line in source_with(problem, MOST_WRITTEN_OUT, (Detail.CREDIT,)).splitlines()]
+    place = lines.index("theirs = other * stride")
+    assert lines[place + 1].startswith("its_1 = BY_ROBOT_")
+    assert lines[place + 1].endswith("[other]")
+    assert lines[place + 2].startswith("for lane in range(")
 
 
 @pytest.mark.parametrize("text", [RICH, shipped("pursuit"), shipped("object_lifting")])
@@ -184,13 +328,17 @@ def test_loops_change_no_bit_of_larger_specs(text):
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
-@given(specs(most_robots=6), st.integers(0, 2**32), st.sampled_from([1, 2]), st.integers(1, 3))
-def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, generation):
+@given(
+    specs(most_robots=6), st.integers(0, 2**32), st.sampled_from([1, 2]), st.integers(1, 3), st.integers(2, 8)
+)
+def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, generation, looked_at):
     meaning, _ = mean(Spec.model_validate(data), seed)
     assume(meaning.spec.environment.robots > 1)
     problem = compile_meaning(meaning, lanes=lanes, compiled=False)
     written_out = bits(with_loops(problem, 100), 3, seed, generation)
-    assert bits(with_loops(problem, 1), 3, seed, generation) == written_out
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(folds, "MOST_WRITTEN_OUT", looked_at)
+        assert bits(with_loops(problem, 1), 3, seed, generation) == written_out
 
 
 def test_loops_are_compiled_to_the_same_bits():

@@ -123,3 +123,30 @@ def test_without_loops_over_robots_a_step_ends_where_it_begins(robots):
     made.prepare([wind(robots)])
     end = closing(made, [wind(robots)])
     assert end.each is end.team is end.store_each is end.store_team is made.blocks.stage(0)
+
+
+def among(robots, value):
+    theirs = robots.theirs(value, others=True)
+    following = robots.graph.apply("+", robots.so_far(0, Kind.NUMBER), theirs)
+    return robots.among([(0, following, theirs)], others=True)
+
+
+def test_a_loop_over_pairs_stands_before_the_lanes_of_a_stage_and_after_those_that_compute_what_it_reads(
+    robots,
+):
+    graph = robots.graph
+    seen = among(robots, x(robots))
+    own = graph.apply("*", x(robots), x(robots))
+    assert stage_of(seen) == 1
+    assert stage_of(graph.apply("-", seen, own)) == 1
+    assert stage_of(among(robots, own)) == 3
+    assert stage_of(among(robots, robots.choice())) == DECIDED + 2
+    assert stage_of(robots.over(seen, "minimum")) == 2
+    assert stage_of(among(robots, seen)) == 3
+
+
+def test_what_the_team_computes_is_there_for_pairs_in_the_next_stage(robots):
+    graph = robots.graph
+    total = graph.apply("*", robots.over(x(robots), "+"), wind(robots))
+    far = graph.apply("*", robots.theirs(x(robots), others=False), total)
+    assert stage_of(robots.among([(0, far, far)], others=False)) == stage_of(total) + 1 == 3
