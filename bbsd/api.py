@@ -30,7 +30,7 @@ from bbsd.evaluation import (
 from bbsd.evaluation import trace as trace_episode
 from bbsd.explanation import Explanation
 from bbsd.explanation import explain as explain_architecture
-from bbsd.kernel.keys import keys
+from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.command import Command, answers
 from bbsd.solver.folder import Folder, Identity, identity, new_folder, old_folder
@@ -163,7 +163,7 @@ def evaluate(
 ) -> Evaluation:
     """Let the design of a spec live episodes, the same ones for every spec and the same seed.
 
-    With fill="random" the holes are filled at random, by so many agents that live so many episodes each. By
+    With fill="random" the holes are filled at random, by so many agents that live so many episodes of their own. By
     default a design lives 1000 episodes and a random agent 10. With `exact` every start is tried once.
     `progress` is told now and then how many episodes were lived, and of how many. Raises HolesLeft for a spec
     with holes, NotEnumerable, SpecError.
@@ -175,7 +175,7 @@ def evaluate(
     with _reward_at_its_place(loaded):
         if fill == "random":
             lived = random_agents(problem, fold(key, name_word("agents")), agents)
-            streams = keys(key, 0, episodes or EPISODES_AT_RANDOM)
+            streams = own_keys(key, agents, episodes or EPISODES_AT_RANDOM)
             return evaluation(problem, _lived(problem, lived, streams, generation, progress), agents)
         lived = agents_of([given_architecture(problem)])
         if exact:
@@ -190,7 +190,7 @@ def _lived(
     problem: Problem, agents: Agents, streams: Keys, generation: int, tell: Callable[[int, int], None] | None
 ) -> Iterator[DetailedOutcome]:
     """The episodes of agents, batch by batch, each of which is told of."""
-    done, total = 0, len(agents) * len(streams)
+    done, total = 0, len(agents) * streams.shape[-1]
     for outcome in detailed(problem, agents, streams, generation):
         done += len(outcome.returns)
         if tell is not None:

@@ -23,13 +23,16 @@ Keys = npt.NDArray[np.uint64]
 
 
 def returns_of(problem: Problem, agents: Agents, keys: Keys, generation: int) -> Floats:
-    """The return of every agent in every episode, (n_agents, n_episodes); all agents meet the same episodes."""
-    returns = np.empty(len(agents) * len(keys))
+    """The return of every agent in every episode, (n_agents, n_episodes).
+
+    Keys (n_episodes,) are of episodes that all agents meet, (n_agents, n_episodes) of each agent's own.
+    """
+    returns = np.empty(len(agents) * keys.shape[-1])
     for lanes, lived, streams in _batches(agents, keys):
         team = problem.assemble(agents.pools, lived.members, generation)
         returns[lanes] = team.episode(streams, lived.structures).returns
         require_finite(problem, lived, streams, returns[lanes], generation)
-    return returns.reshape(len(agents), len(keys))
+    return returns.reshape(len(agents), -1)
 
 
 def detailed(problem: Problem, agents: Agents, keys: Keys, generation: int) -> Iterator[DetailedOutcome]:
@@ -42,7 +45,9 @@ def detailed(problem: Problem, agents: Agents, keys: Keys, generation: int) -> I
 
 
 def _batches(agents: Agents, keys: Keys) -> Iterator[tuple[slice, Agents, Keys]]:
-    total = len(agents) * len(keys)
+    each = keys.shape[-1]
+    total = len(agents) * each
     for first in range(0, total, BATCH):
         lanes = np.arange(first, min(first + BATCH, total))
-        yield slice(first, first + len(lanes)), agents[lanes // len(keys)], keys[lanes % len(keys)]
+        streams = keys[lanes % each] if keys.ndim == 1 else keys.ravel()[lanes]
+        yield slice(first, first + len(lanes)), agents[lanes // each], streams

@@ -18,6 +18,11 @@ def keys(key: int, first: int, count: int) -> NDArray[np.uint64]:
     return cast("NDArray[np.uint64]", fold(key, words))  # type: ignore[arg-type]  # the arithmetic is elementwise
 
 
+def own_keys(key: int, n_owners: int, count: int) -> NDArray[np.uint64]:
+    """As many such keys for each of several owners, no two the same; (n_owners, count)."""
+    return keys(key, 0, n_owners * count).reshape(n_owners, count)
+
+
 def folded(streams: NDArray[np.uint64], word: int) -> NDArray[np.uint64]:
     """The stream called `word` within each of the streams; (n,)."""
     return cast("NDArray[np.uint64]", fold(streams, word))  # type: ignore[arg-type]  # the arithmetic is elementwise

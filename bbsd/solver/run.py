@@ -9,7 +9,7 @@ import numpy as np
 
 from bbsd.evaluation import Evaluation, Interval, agents_of, detailed, evaluation, interval, returns_of
 from bbsd.evaluation.sums import row_means
-from bbsd.kernel.keys import keys
+from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver import metrics
 from bbsd.solver.answer import answer, different
@@ -72,7 +72,7 @@ class Judgement:
     lifetime: Interval
     """Lifetime fitness of agents that are born with the design and go on learning, over agents."""
     random: Interval
-    """Random agents of the same space, over agents."""
+    """Random agents of the same space, each in episodes of its own, over agents."""
 
 
 def judge(answers: Sequence[Architecture], problem: Problem, settings: Settings, seed: int) -> Judgement:
@@ -84,7 +84,8 @@ def judge(answers: Sequence[Architecture], problem: Problem, settings: Settings,
     fresh = keys(fold(key, JUDGED), 0, settings.answer.judged)
     judged = evaluation(problem, detailed(problem, agents_of([best]), fresh, generation), 1)
     strangers = random_agents(problem, fold(key, RANDOM), RANDOM_AGENTS)
-    earned = returns_of(problem, strangers, keys(fold(key, RANDOM), 0, RANDOM_EPISODES), generation)
+    streams = own_keys(fold(key, RANDOM), RANDOM_AGENTS, RANDOM_EPISODES)
+    earned = returns_of(problem, strangers, streams, generation)
     return Judgement(best, judged, _lifetime(best, problem, settings, key), interval(row_means(earned)))
 
 

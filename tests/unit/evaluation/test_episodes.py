@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from bbsd.evaluation import agents_of, detailed, episodes, returns_of
-from bbsd.kernel.keys import keys
+from bbsd.kernel.keys import keys, own_keys
 from bbsd.solver.random_agents import random_agents
 from tests.unit.problems import RICH, problem_of
 
@@ -19,6 +19,18 @@ def test_all_agents_meet_the_same_episodes(problem):
     for agent in range(3):
         alone = agents_of([agents.architecture(agent)])
         np.testing.assert_array_equal(returns_of(problem, alone, streams, 1)[0], returns[agent])
+
+
+def test_agents_may_have_episodes_of_their_own(problem, monkeypatch):
+    agents, streams = random_agents(problem, 1, 3), own_keys(5, 3, 4)
+    returns = returns_of(problem, agents, streams, 1)
+    assert returns.shape == (3, 4)
+    for agent in range(3):
+        alone = agents_of([agents.architecture(agent)])
+        np.testing.assert_array_equal(returns_of(problem, alone, streams[agent], 1)[0], returns[agent])
+    monkeypatch.setattr(episodes, "BATCH", 5)
+    outcomes = detailed(problem, agents, streams, 1)
+    np.testing.assert_array_equal(np.concatenate([each.returns for each in outcomes]), returns.ravel())
 
 
 def test_more_episodes_begin_with_the_same(problem):
