@@ -15,6 +15,7 @@ from importlib import import_module
 from multiprocessing import Pipe, resource_tracker
 from typing import TYPE_CHECKING, Any
 
+from bbsd.kernel.modules import cache_folder
 from bbsd.solver.interruption import own_wish
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ def waiting(count: int) -> Iterator[Processes]:
     """Start so many processes, and end them."""
     from loky import ProcessPoolExecutor
 
+    cache_folder("compiled")  # if it is a temporary one it is theirs too, and is told of once
     reader, lifeline = Pipe(duplex=False)
     with _environment():
         executor = ProcessPoolExecutor(count, initializer=_begin, initargs=(reader,))

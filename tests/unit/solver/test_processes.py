@@ -1,5 +1,7 @@
 import os
 import signal
+import subprocess
+import sys
 import time
 from concurrent.futures import BrokenExecutor
 from pathlib import Path
@@ -33,6 +35,28 @@ def test_what_is_submitted_is_done_in_another_process():
         assert worker != os.getpid()
         assert processes.submit(max, 3, 5).result() == 5
     assert_gone(worker)
+
+
+SHARING = """
+import os
+from bbsd.solver.processes import waiting
+
+with waiting(1) as processes:
+    print(processes.submit(os.getenv, "BBSD_CACHE_DIR").result() == os.environ["BBSD_CACHE_DIR"])
+    print(os.environ["BBSD_CACHE_DIR"])
+"""
+
+
+def test_a_temporary_cache_is_told_of_once_and_is_the_workers_too(tmp_path):
+    (tmp_path / "file").touch()
+    environment = {**os.environ, "BBSD_CACHE_DIR": str(tmp_path / "file")}
+    done = subprocess.run(
+        [sys.executable, "-c", SHARING], env=environment, capture_output=True, text=True, check=True
+    )
+    same, folder = done.stdout.split()
+    assert same == "True"
+    assert folder != str(tmp_path / "file")
+    assert done.stderr.count("cannot keep compiled code") == 1
 
 
 def test_a_worker_ignores_interrupts():
