@@ -113,6 +113,11 @@ class Frame:
         known = {"True": "1.0", "False": "0.0"}
         return known.get(truth) or self.call_of("select", truth, "1.0", "0.0")
 
+    @property
+    def size(self) -> int:
+        """How many numbers all that is kept takes."""
+        return self.memory.size(self.lanes, self.team)
+
     def scratch(self) -> list[str]:
         """The lines that set up the memory of all that is kept."""
         self.used |= self.memory.functions

@@ -1,8 +1,8 @@
 """What a rollout keeps from step to step and from loop to loop: arrays with a place for every lane.
 
-The team's lie in one piece of memory, the robots' in another: few pieces, so that LLVM has few ranges to compare
-before it vectorizes a loop. The values of one robot lie together, `stride` numbers from those of the next, so a loop
-over the lanes of one robot certainly does not overwrite what it reads of another one.
+They lie in one piece of memory that the caller gives, the team's before the robots': few pieces, so that LLVM has few
+ranges to compare before it vectorizes a loop. The values of one robot lie together, `stride` numbers from those of the
+next, so a loop over the lanes of one robot certainly does not overwrite what it reads of another one.
 """
 
 from __future__ import annotations
@@ -37,26 +37,33 @@ class Memory:
     @property
     def functions(self) -> set[str]:
         """The kernel's functions that the lines call."""
-        return {"zeros", "part", "as_words", *(["as_integers"] if self.integers or self.own_integers else [])}
+        return {"part", "as_words", *(["as_integers"] if self.integers or self.own_integers else [])}
+
+    def team_size(self, lanes: int) -> int:
+        """How many numbers the team's arrays have."""
+        return (1 + len(self.numbers) + len(self.integers)) * lanes
+
+    def size(self, lanes: int, robots: int) -> int:
+        """How many numbers all arrays have."""
+        return self.team_size(lanes) + (len(self.own_numbers) + len(self.own_integers)) * lanes * robots
 
     def lines(self, lanes: int) -> list[str]:
         """The lines that set up the team's arrays."""
         arrays = [("key", "streams"), *_views("", self.numbers, self.integers)]
         return [
-            f"numbers = zeros({len(arrays) * lanes})",
             "streams = as_words(numbers)",
             *(["cells = as_integers(numbers)"] if self.integers else []),
             *(f"{name} = part({view}, {k * lanes}, {lanes})" for k, (name, view) in enumerate(arrays)),
         ]
 
     def own_lines(self, lanes: int, robots: int) -> list[str]:
-        """The lines that set up the robots' arrays, which begin with the first robot's values."""
+        """The lines that set up the robots' arrays, which begin with the first robot's values, behind the team's."""
         arrays = _views("own_", self.own_numbers, self.own_integers)
         stride = len(arrays) * lanes
         size = stride * robots
         return [
             f"stride = {stride}",
-            f"own_numbers = zeros({size})",
+            f"own_numbers = part(numbers, {self.team_size(lanes)}, {size})",
             *(["own_cells = as_integers(own_numbers)"] if self.own_integers else []),
             *(
                 f"{name} = part({view}, {k * lanes}, {size - k * lanes})"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -106,6 +106,11 @@ class Problem:
     def rollout_detailed(self) -> Callable[..., None]:
         """The kernel that evaluation calls."""
         return self._quiet(self._module.rollout_detailed)
+
+    @property
+    def memory(self) -> int:
+        """How many numbers a kernel works with."""
+        return cast("int", self._module.MEMORY)
 
     def _quiet(self, function: Callable[..., None]) -> Callable[..., None]:
         """Infinities and NaN are values in every mode; NumPy's scalars would warn of them in plain Python."""

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bbsd.spec.meaning.names import Slot
 
 ARGUMENTS = (
-    "first", "last", "keys", "individuals", "words", "tables", "origins", "priorities", "constants",
+    "first", "last", "numbers", "keys", "individuals", "words", "tables", "origins", "priorities", "constants",
     "returns", "credit",
 )  # fmt: skip
 
@@ -40,16 +40,17 @@ def module_source(
     details: Sequence[Detail],
     written_out: int = MOST_WRITTEN_OUT,
 ) -> str:
-    """The source of a module with a rollout for each detail asked for.
+    """The source of a module with a rollout for each detail asked for, and how much memory they want.
 
     More robots than are to be written out stand in loops; those of a trace never do.
     """
-    texts, used, tables = [], set(), dict[str, str]()
+    texts, used, tables, memory_size = [], set(), dict[str, str](), 0
     short = rolled(meaning, written_out)
     for detail in details:
         frame = Frame(meaning if detail is Detail.TRACE else short, shapes, lanes, detail, tables)
         texts.append(f"\n{rollout_source(frame)}")
         used |= frame.used
+        memory_size = max(memory_size, frame.size)
     title = f'"""Episodes of {meaning.spec.name!r}, {lanes} at a time. Written by bbsd {__version__} from the spec."""'
     imports = [
         *(["import numpy as np"] if any("np." in text for text in (*tables, *texts)) else []),
@@ -58,7 +59,7 @@ def module_source(
         *_imports("bbsd.kernel.streams", sorted(used & vars(streams).keys() - vars(functions).keys())),
     ]
     by_robot = ["\n".join(f"{name} = {text}" for text, name in tables.items())] if tables else []
-    return "\n\n".join([title, "\n".join(imports), *by_robot, *texts]) + "\n"
+    return "\n\n".join([title, "\n".join(imports), f"MEMORY = {memory_size}", *by_robot, *texts]) + "\n"
 
 
 def _imports(module: str, names: Sequence[str]) -> list[str]:

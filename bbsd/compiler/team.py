@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from bbsd.compiler.deciding import ACTION_BITS
 from bbsd.compiler.tables import Pool, cells_of, words_of
+from bbsd.kernel.memory import zeros
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -93,14 +94,17 @@ class Team:
         return DetailedOutcome(returns, credit, terms, control, taken, odd, held)
 
     def traced_episode(
-        self, rollout: Callable[..., None], key: int, structure: Integers, record: Floats
+        self, rollout: Callable[..., None], memory: int, key: int, structure: Integers, record: Floats
     ) -> int:
-        """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken."""
+        """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken.
+
+        It works with so many numbers of memory.
+        """
         keys, arrays = np.array([key], np.uint64), self._detailed_outputs()
         *_, taken, _odd, _held = arrays
         inputs = self._inputs(np.resize(keys, self.size), np.resize(structure, (self.size, len(structure))))
         with np.errstate(all="ignore"):
-            rollout(0, 1, *inputs, *arrays, record)
+            rollout(0, 1, zeros(memory), *inputs, *arrays, record)
         return int(taken[0])
 
     def _detailed_outputs(self) -> list[Floats]:
@@ -115,9 +119,10 @@ class Team:
         """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock."""
         spans = self._spans()
         if len(spans) == 1:
-            rollout(*spans[0], *arrays)
+            rollout(*spans[0], zeros(self.problem.memory), *arrays)
             return
-        list(self.problem.threads.map(lambda span: rollout(*span, *arrays), spans))
+        memory = self.problem.memory
+        list(self.problem.threads.map(lambda span: rollout(*span, zeros(memory), *arrays), spans))
 
     def _spans(self) -> list[tuple[int, int]]:
         """Which lanes each thread runs, whole batches of them."""

@@ -86,12 +86,12 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     meaning, steps = problem.meaning, problem.meaning.spec.environment.steps
     columns = traced_columns(meaning)
     source = module_source(meaning, problem.tables, 1, (Detail.TRACE,))
-    rollout = load_kernel(source, "trace", (), compiled=False).rollout_traced
+    kernel = load_kernel(source, "trace", (), compiled=False)
     record = np.full((steps, len(columns)), np.nan)
     pools = tuple(table[None] for table in architecture.tables)
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
-    taken = team.traced_episode(rollout, key, architecture.structure, record)
+    taken = team.traced_episode(kernel.rollout_traced, kernel.MEMORY, key, architecture.structure, record)
     lived = _read(problem, columns, record[:taken])
     return replace(lived, scene=_scene(lived, problem.meaning, key, generation))
 

@@ -9,7 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from bbsd.kernel import functions, memory, streams
+from bbsd.kernel import functions, streams
 from bbsd.kernel.modules import cache_folder, kernel_digest
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def _library() -> list[Dispatcher]:
     intrinsics.register()
     found = []
     with _cached_in(cache_folder("compiled") / kernel_digest()):
-        for function in functions.COMPILABLE + streams.COMPILABLE + memory.COMPILABLE:
+        for function in functions.COMPILABLE + streams.COMPILABLE:
             found.append(numba.njit(cache=True, **LIBRARY_OPTIONS)(function))
             intrinsics.offer(function, found[-1])
     return found
@@ -82,13 +82,16 @@ def _cached_in(folder: Path) -> Iterator[None]:
 LIBRARY = _library()
 
 
-def jit(function: Function) -> Function:
+def jit(function: Function, *, allocates: bool = True) -> Function:
     """The function, compiled when it is called, with strict floating point, without the GIL, cached on disk.
+
+    One that makes no arrays and keeps none compiles faster if that is said.
 
     numba's cache knows the text of the function's own file; its folder is named by all else that counts.
     """
+    options: Any = {**OPTIONS, "_nrt": allocates}
     with _cached_in(cache_folder("compiled") / _stamp(function)):
-        compiled: Function = numba.njit(cache=True, **OPTIONS)(function)
+        compiled: Function = numba.njit(cache=True, **options)(function)
     return compiled
 
 

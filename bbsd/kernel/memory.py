@@ -1,6 +1,7 @@
 """The working memory of a kernel: one array, and views of its parts. Plain NumPy here, a few instructions compiled.
 
-`kernel.intrinsics` gives compiled code the views; NumPy's own would be compiled anew for every kernel.
+`kernel.intrinsics` gives compiled code the views; NumPy's own would be compiled anew for every kernel. Kernels do not
+allocate, so nothing in them is counted or freed.
 """
 
 from __future__ import annotations
@@ -14,10 +15,15 @@ if TYPE_CHECKING:
 
 Array = np.ndarray[tuple[int], np.dtype[Any]]
 
+CACHE_LINE = 64
+"""Bytes. A vector that lies across two lines is loaded in twice the time."""
+
 
 def zeros(size: int) -> NDArray[np.float64]:
-    """New memory, (size,)."""
-    return np.zeros(size, np.float64)
+    """New memory that begins with a line of the cache, (size,). Not for compiled code."""
+    numbers = np.zeros(size + CACHE_LINE // 8)
+    address, _ = numbers.__array_interface__["data"]
+    return part(numbers, -address % CACHE_LINE // 8, size)
 
 
 def part(array: Array, first: int, size: int) -> Array:
@@ -33,6 +39,3 @@ def as_words(numbers: NDArray[np.float64]) -> NDArray[np.uint64]:
 def as_integers(numbers: NDArray[np.float64]) -> NDArray[np.int64]:
     """The same memory as whole numbers, (size,)."""
     return numbers.view(np.int64)
-
-
-COMPILABLE = (zeros,)

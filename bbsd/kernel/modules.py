@@ -52,8 +52,9 @@ def cache_folder(name: str) -> Path:
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
     """The module that the source defines, its named functions compiled, or all of it as plain Python.
 
-    The file and the module are called by `name`, an identifier, and a hash of all that decides what the
-    compiled code does: the same source is the same file, and numba finds what it compiled before.
+    A compiled function may make no arrays, nor return any. The file and the module are called by `name`, an
+    identifier, and a hash of all that decides what the compiled code does: the same source is the same file, and
+    numba finds what it compiled before.
     """
     digest = sha256(f"{kernel_digest()} {functions} {source}".encode()).hexdigest()
     title = f"{name}_{digest[:32]}"
@@ -117,4 +118,4 @@ def _compile(module: ModuleType, functions: tuple[str, ...]) -> None:
     from bbsd.kernel.jit import jit
 
     for function in functions:
-        setattr(module, function, jit(getattr(module, function)))
+        setattr(module, function, jit(getattr(module, function), allocates=False))

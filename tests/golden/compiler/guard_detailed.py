@@ -1,10 +1,11 @@
 from bbsd.kernel.functions import add_where, cell_of, clamp_index, divide, floor, is_finite, maximum_where, select
-from bbsd.kernel.memory import as_integers, as_words, part, zeros
+from bbsd.kernel.memory import as_integers, as_words, part
 from bbsd.kernel.streams import fold, uniform, word_of
 
+MEMORY = 224
 
-def rollout_detailed(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd, held):
-    numbers = zeros(224)
+
+def rollout_detailed(first, last, numbers, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd, held):
     streams = as_words(numbers)
     cells = as_integers(numbers)
     key = part(streams, 0, 8)

@@ -1,12 +1,13 @@
 from bbsd.kernel.functions import add_where, cell_of, clamp_index, divide, floor, maximum_where, select
-from bbsd.kernel.memory import as_integers, as_words, part, zeros
+from bbsd.kernel.memory import as_integers, as_words, part
 from bbsd.kernel.streams import fold, uniform, word_of
+
+MEMORY = 640
 
 BY_ROBOT_1 = (0xac39aeacbaa9b617, 0xffb22b91d28bcbe7, 0xff0a25df3a554bbe, 0xb26bdd26cb760ca9, 0xb3c40c665d9246a6, 0xb1922a1339548839, 0x8bfd19a806c68158, 0xea610af1d340b6eb)
 
 
-def rollout(first, last, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
-    numbers = zeros(128)
+def rollout(first, last, numbers, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
     streams = as_words(numbers)
     cells = as_integers(numbers)
     key = part(streams, 0, 8)
@@ -26,7 +27,7 @@ def rollout(first, last, keys, individuals, words, tables, origins, priorities, 
     priority_come = part(cells, 112, 8)
     row_come = part(cells, 120, 8)
     stride = 64
-    own_numbers = zeros(512)
+    own_numbers = part(numbers, 128, 512)
     own_cells = as_integers(own_numbers)
     x = part(own_numbers, 0, 512)
     awake = part(own_numbers, 8, 504)

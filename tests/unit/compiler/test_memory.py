@@ -8,6 +8,7 @@ from bbsd.expression.graph import Kind
 from bbsd.kernel import memory as kernel_memory
 
 LANES, ROBOTS = 4, 3
+SIZE = 100
 
 
 @pytest.fixture
@@ -26,7 +27,7 @@ def memory():
 
 
 def run(lines):
-    scope = {**vars(kernel_memory)}
+    scope = {**vars(kernel_memory), "numbers": np.zeros(SIZE)}
     exec("\n".join(lines), scope)
     return scope
 
@@ -45,7 +46,8 @@ def test_every_element_is_apart(memory):
     for number, (array, place) in enumerate(elements):
         array[place] = number
     assert [int(array[place]) for array, place in elements] == list(range(len(elements)))
-    assert len(elements) == len(scope["numbers"]) + len(scope["own_numbers"])
+    assert len(elements) == memory.size(LANES, ROBOTS) == memory.team_size(LANES) + len(scope["own_numbers"])
+    assert (scope["numbers"][len(elements) :] == 0).all()
 
 
 def test_kinds_have_their_types(memory):
@@ -70,5 +72,5 @@ def test_what_is_a_robot_s_own_is_known(memory):
 
 def test_nothing_but_the_key_is_kept_of_nothing():
     scope = run([*Memory().lines(LANES), *Memory().own_lines(LANES, ROBOTS)])
-    assert len(scope["numbers"]) == len(scope["key"]) == LANES
+    assert Memory().size(LANES, ROBOTS) == len(scope["key"]) == LANES
     assert (scope["stride"], len(scope["own_numbers"])) == (0, 0)
