@@ -37,6 +37,7 @@ with _config_file_unseen():
     from numba.core.dispatcher import Dispatcher
 
     from bbsd.kernel import intrinsics
+    from bbsd.kernel.pipeline import KernelCompiler
 
 # numba looks for the file again at every compilation; and someone else may have imported numba before.
 SETTINGS = vars(config)
@@ -82,17 +83,20 @@ def _cached_in(folder: Path) -> Iterator[None]:
 LIBRARY = _library()
 
 
-def jit(function: Function, *, allocates: bool = True) -> Function:
+def jit(function: Function, **more: object) -> Function:
     """The function, compiled when it is called, with strict floating point, without the GIL, cached on disk.
-
-    One that makes no arrays and keeps none compiles faster if that is said.
 
     numba's cache knows the text of the function's own file; its folder is named by all else that counts.
     """
-    options: Any = {**OPTIONS, "_nrt": allocates}
+    options: Any = {**OPTIONS, **more}
     with _cached_in(cache_folder("compiled") / _stamp(function)):
         compiled: Function = numba.njit(cache=True, **options)(function)
     return compiled
+
+
+def jit_kernel(function: Function) -> Function:
+    """The same for plain loops over numbers, which compile faster: functions that make no arrays and keep none."""
+    return jit(function, _nrt=False, pipeline_class=KernelCompiler)
 
 
 def _stamp(function: Callable[..., Any]) -> str:

@@ -52,9 +52,9 @@ def cache_folder(name: str) -> Path:
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
     """The module that the source defines, its named functions compiled, or all of it as plain Python.
 
-    A compiled function may make no arrays, nor return any. The file and the module are called by `name`, an
-    identifier, and a hash of all that decides what the compiled code does: the same source is the same file, and
-    numba finds what it compiled before.
+    Compiled functions are plain loops over numbers and arrays that they are given, as `jit_kernel` wants. The file
+    and the module are called by `name`, an identifier, and a hash of all that decides what the compiled code does:
+    the same source is the same file, and numba finds what it compiled before.
     """
     digest = sha256(f"{kernel_digest()} {functions} {source}".encode()).hexdigest()
     title = f"{name}_{digest[:32]}"
@@ -115,7 +115,7 @@ def _import_file(path: Path, module_name: str) -> ModuleType:
 
 
 def _compile(module: ModuleType, functions: tuple[str, ...]) -> None:
-    from bbsd.kernel.jit import jit
+    from bbsd.kernel.jit import jit_kernel
 
     for function in functions:
-        setattr(module, function, jit(getattr(module, function), allocates=False))
+        setattr(module, function, jit_kernel(getattr(module, function)))
