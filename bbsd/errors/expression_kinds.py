@@ -198,7 +198,8 @@ EXPRESSION_KINDS = (
         title="too many values",
         explanation=(
             "Robots, lists and generators are written out when a spec is read, and the values that a step "
-            "then computes are limited to 300 000, so that no small spec can exhaust the machine."
+            "then computes are limited to 100 000, so that no small spec can exhaust the machine; so are the steps "
+            "of computing a rate for all generations or episodes, to 600 000."
         ),
         example="reward:\n  near: sum(sum(height * i + j for i in range(5000)) for j in range(5000))",
         mend="reward:\n  near: sum(sum(height * i + j for i in range(50)) for j in range(50))",
