@@ -96,14 +96,14 @@ def structure(text: str, dice: random.Random) -> str:
     """The data of a spec with one to four places changed, written as YAML again."""
     try:
         data = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError, RecursionError):
+        for _ in range(dice.randint(1, 4)):
+            places = list(_places(data))
+            if not places:
+                return text
+            _change(*dice.choice(places), dice)
+        return dumped(data, dice)
+    except (yaml.YAMLError, ValueError, RecursionError):  # what was put into itself, say, has no end
         return text
-    for _ in range(dice.randint(1, 4)):
-        places = list(_places(data))
-        if not places:
-            return text
-        _change(*dice.choice(places), dice)
-    return dumped(data, dice)
 
 
 def dumped(data: Any, dice: random.Random) -> str:  # noqa: ANN401 - any plain value

@@ -69,7 +69,7 @@ def design(
         require_figure(Path(CURVES))
     # Mistakes are told before anything heavy is imported, and workers import it at the same time as this process.
     loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides or ())
-    with _workers(0 if dry_run else min(runs, jobs) - 1) as ready:
+    with _workers(0 if dry_run or resume else min(runs, jobs) - 1) as ready:
         from bbsd import api
         from bbsd.report.progress import progress
 

@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
+from bbsd.compiler.pairs import of_pairs
 from bbsd.compiler.schedule import stages
 from bbsd.compiler.texts import (
     ATOM,
@@ -136,8 +137,10 @@ class Emitter:
         """Name the deep values that a value needs, the lowest first."""
         if not self.deep:
             return
+        # Of what a loop over pairs computes, a value in another such loop is reached by no way but its array.
+        own = {each.number for each in of_pairs([node])} if into.level is Level.PAIR else set[int]()
         for operand in needed(node.operands):
-            if operand.number in self.deep and _is_reachable(operand, into):
+            if operand.number in self.deep and (operand.number in own or _is_reachable(operand, into)):
                 self._write(operand, self._home(operand, into))
                 self.deep.remove(operand.number)
 
@@ -245,12 +248,12 @@ def _deep(nodes: Iterable[Node]) -> set[int]:
 
 
 def _is_reachable(node: Node, into: Block) -> bool:
-    """Whether a value can be written for a block."""
+    """Whether a value that is computed outside a loop over pairs can be written for a block."""
     match node.level:
         case Level.ROBOT:
             return into.level in (Level.ROBOT, Level.EACH, Level.PAIR)
         case Level.PAIR:
-            return into.level is Level.PAIR
+            return False
     return True
 
 

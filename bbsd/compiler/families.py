@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, cast
 
-from bbsd.compiler.folds import Family, Fold, Folds, Key, Plan
+from bbsd.compiler.folds import IMPOSSIBLE, Family, Fold, Folds, Key, Plan
 from bbsd.compiler.pairs import FOLDS, Pairs
 from bbsd.expression.graph import Level, Node
 
@@ -83,18 +83,19 @@ class Families:
             if key in self.found:
                 waiting.pop()
                 continue
-            needs, build = self._way(key)
-            missing = [need for need in needs if need not in self.found]
-            if missing:
+            plan = needs, build = self._way(key)
+            known = [self.found[need] for need in needs if need in self.found]
+            if None not in known and len(known) < len(needs):
                 begun.add(key)
+                missing = [need for need in needs if need not in self.found]
                 if not begun.isdisjoint(missing):
                     raise CircularError
-                waiting.extend(missing)
+                # What fails for one reason need not look for another.
+                waiting.extend(missing[:1] if isinstance(key, Pairs | Fold) else missing)
                 continue
-            operands = [self.found[need] for need in needs]
-            made = None if None in operands else build(cast("list[Node]", operands))
+            made = None if None in known else build(cast("list[Node]", known))
             begun.discard(key)
-            if made is not None or isinstance(key, Pairs | Fold):
+            if made is not None or isinstance(key, Fold) or plan is IMPOSSIBLE:
                 self.found[key] = made
             else:
                 self._failed[key] += 1
@@ -113,7 +114,7 @@ class Families:
             case tuple():
                 return self._ways_of_each([self._nodes[number] for number in key])
             case Pairs():
-                return iter([self._folds.plan_of_pairs(key)])
+                return self._folds.plans_of_pairs(key)
             case Fold():
                 return iter([self._folds.plan_of_fold(key.number)])
 

@@ -41,6 +41,9 @@ Key = Family | Pairs | Fold
 Plan = tuple[Sequence[Key], Callable[[Sequence[Node]], Node | None]]
 """What a node needs, and what makes it of that: None where this way does not do."""
 
+MOST_EFFORT = 1_500_000
+"""Nodes of pairs that are looked at for one moment, in about a second; then folds stay written out."""
+
 IMPOSSIBLE: Plan = (), lambda _: None
 
 
@@ -54,10 +57,13 @@ class Folds:
     """The key of a family, given for every robot."""
     owners: Mapping[int, tuple[tuple[int, ...], int]]
     """The family that a node belongs to, and whose value in it it is."""
-    chains: list[Chain] = field(default_factory=list)
+    chains: dict[int, Chain] = field(default_factory=dict)
     """The folds by their numbers."""
     _begun: dict[tuple[Node, Node], int] = field(default_factory=dict)
     """The longest fold that begins with two links, of the first robot."""
+    _tried: set[Pairs] = field(default_factory=set)
+    _effort: int = 0
+    """Nodes of pairs that were looked at."""
     _made: dict[int, tuple[Node, Node]] = field(default_factory=dict)
     """By number, what follows from what is folded so far, and what is first."""
 
@@ -92,9 +98,9 @@ class Folds:
         known = self._begun.get(beginning)
         if known is not None and self.chains[known].begins(chain):
             return known
-        self._begun[beginning] = len(self.chains)
-        self.chains.append(chain)
-        return self._begun[beginning]
+        number = self._begun[beginning] = next(self.new.fold_numbers)
+        self.chains[number] = chain
+        return number
 
     def plan_of_fold(self, number: int) -> Plan:
         """How what follows is made of what is folded so far."""
@@ -111,27 +117,38 @@ class Folds:
 
         return [chain.terms, *([conditions] if conditions else [])], build
 
-    def plan_of_pairs(self, pairs: Pairs) -> Plan:
-        """How an expression of a robot and one that it looks at is made."""
+    def plans_of_pairs(self, pairs: Pairs) -> Iterator[Plan]:
+        """Ways of making an expression of a robot and one that it looks at, the last one of which is none."""
         corner = pairs.corner
-        if pairs.are_too_few:
-            return IMPOSSIBLE
-        if (own := pairs.own()) is not None:
-            return (self.key(own),), lambda made: made[0]
-        if (before := chain_of(pairs)) is not None:
-            number = self._number_of(before)
-            return (), lambda _: self.new.so_far(number, corner.kind)
+        if self._is_hopeful(pairs):
+            if (own := pairs.own()) is not None:
+                yield (self.key(own),), lambda made: made[0]
+            elif (before := chain_of(pairs)) is not None:
+                number = self._number_of(before)
+                yield (), lambda _: self.new.so_far(number, corner.kind)
+            else:
+                yield from self._plans_of_theirs(pairs)
+            if pairs.are_alike() and corner.operation != "draw":
+                needs = [pairs.of(place) for place in range(len(corner.operands))]
+                yield needs, lambda made: self.new.again([corner], made)
+        yield IMPOSSIBLE
+
+    def _is_hopeful(self, pairs: Pairs) -> bool:
+        """Whether something can be said of whomever a robot looks at, and not too much was tried in vain."""
+        if pairs not in self._tried:
+            self._tried.add(pairs)
+            self._effort += len(pairs.rows) * len(pairs.rows[0])
+        return not pairs.are_too_few and self._effort <= MOST_EFFORT
+
+    def _plans_of_theirs(self, pairs: Pairs) -> Iterator[Plan]:
+        corner = pairs.corner
         if corner.operation == "slot" and (plan := self._plan_of_slots(pairs)) is not None:
-            return plan
+            yield plan
         family, _ = self.owners.get(corner.number, (None, 0))
         if family is not None and pairs.are_theirs(lambda node: self._robot_in(family, node)):
-            return (family,), lambda made: self._theirs(made[0], others=pairs.others)
-        if (by_robot := pairs.by_robot()) is not None:
-            return (self.key(by_robot),), lambda made: self._theirs(made[0], others=pairs.others)
-        if pairs.are_alike() and corner.operation != "draw":
-            needs = [pairs.of(place) for place in range(len(corner.operands))]
-            return needs, lambda made: self.new.again([corner], made)
-        return IMPOSSIBLE
+            yield (family,), lambda made: self._theirs(made[0], others=pairs.others)
+        elif (by_robot := pairs.by_robot()) is not None:
+            yield (self.key(by_robot),), lambda made: self._theirs(made[0], others=pairs.others)
 
     def _plan_of_slots(self, pairs: Pairs) -> Plan | None:
         corner, new = pairs.corner, self.new

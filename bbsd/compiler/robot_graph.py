@@ -17,12 +17,13 @@ Nodes that are met only here:
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import count
 from typing import TYPE_CHECKING, cast
 
 from bbsd.expression.graph import Graph, Kind, Level, Node, kind_drawn
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from bbsd.spec.meaning.names import Slot
 
@@ -36,6 +37,8 @@ class RobotGraph:
 
     robots: int
     graph: Graph = field(default_factory=lambda: Graph(bounded=False))
+    fold_numbers: Iterator[int] = field(default_factory=count)
+    """No two folds of an episode have the same number, whichever moment they belong to."""
 
     def choice(self) -> Node:
         """What controls each robot."""

@@ -251,6 +251,13 @@ PAIRS = {
         "definitions": {"mate": "argmin(abs(x[r] - x) for r in others)"},
         "dynamics": {"x": "x + s / 50 - t"},
     },
+    "constants of the robots looked at": {
+        "sensors": {
+            "s": "sum(table[r % 4][0] * 2 * (x[r] - x) for r in others)",
+            "t": "sum(step * r * (x[r] - x) for r in others)",
+        },
+        "dynamics": {"y": "y + s / 100 - t / 50"},
+    },
     "at the start": {"state": {"z": "sum(abs(x[r] - x) for r in others)"}, "dynamics": {"y": "y + z"}},
     "rewards and ends": {
         "reward": {"near": "-min(abs(x[r] - x) for r in others)", "wind": "wind"},
@@ -339,6 +346,37 @@ def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, genera
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(folds, "MOST_WRITTEN_OUT", looked_at)
         assert bits(with_loops(problem, 1), 3, seed, generation) == written_out
+
+
+@pytest.mark.parametrize("n_terms", [11, 12])
+def test_a_decision_with_as_many_terms_as_robots_does_not_meet_the_folds_of_its_step(n_terms):
+    excited = f"min(abs(y - k) for k in range({n_terms})) > 0.3"
+    problem = moving(
+        robots=12,
+        state={"z": "uniform(-1, 1)"},
+        right={"excited": excited},
+        dynamics={"y": "y + sum(z[r] * z - y for r in team) / 10"},
+    )
+    assert_loops_change_no_bit(problem)
+
+
+@pytest.mark.usefixtures("paired")
+def test_folds_within_folds_may_be_deep():
+    for length in range(1, 36):
+        terms = " + ".join(f"{k} * y" for k in range(length))
+        definitions = {"near(u)": f"abs(u) + {terms}", "far(u)": f"near(u) - {terms.replace('+', '-')}"}
+        sensors = {"c": "sum(far(sin(x[r] - x)) for r in others)", "s": "sum(c[r] * x - c for r in team)"}
+        problem = moving(robots=6, definitions=definitions, sensors=sensors, dynamics={"y": "s"})
+        source = source_with(problem, 1, (Detail.CREDIT,))
+        assert source.count("for pair in") == 4  # two at the start, two in a step
+
+
+def test_long_sums_of_a_robot_s_own_are_not_taken_for_folds_again_and_again():
+    walk = {f"a{k}": f"a{k - 1} + a{k - 1 - k % 3}" for k in range(3, 45)}
+    problem = moving(
+        robots=12, definitions={"a0": "x * y", "a1": "y", "a2": "x", **walk}, dynamics={"y": "a44"}
+    )
+    assert "for pair in" not in source_with(problem, MOST_WRITTEN_OUT, (Detail.CREDIT,))
 
 
 def test_loops_are_compiled_to_the_same_bits():
