@@ -31,6 +31,15 @@ SHAPES = {
     "8 robots": Shape(robots=8),
     "16 robots": Shape(robots=16),
     "64 robots": Shape(robots=64, steps=100),
+    "16 robots that look at one another": Shape(
+        robots=16,
+        steps=100,
+        sensors={
+            "near": "min(abs(x[r] - x) for r in others)",
+            "toward": "x[argmin(abs(x[r] - x) for r in others)] - x",
+        },
+        dynamics="x + 0.01 * v + 0.001 * toward * near",
+    ),
     "20 behaviors": Shape(behaviors=20),
     "32 behaviors": Shape(behaviors=32),
     "tables of 1000 cells": Shape(cells=1000, seen="100 * x"),

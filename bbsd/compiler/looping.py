@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
-from bbsd.compiler.texts import ATOM, Text, infix, number_text, sum_of, times
+from bbsd.compiler.texts import ATOM, COMPARISON, Text, infix, number_text, sum_of, times
 from bbsd.expression.graph import Kind
 
 if TYPE_CHECKING:
@@ -117,10 +117,22 @@ class Loops:
     def _write_fold(self, number: int, following: Node, first: Node, block: Block, emitter: Emitter) -> None:
         """Compute what follows for one more robot; it is stored when all that is so far has been read."""
         array = self.folds[block.stage, number]
-        begun, further = emitter.value(first, block), emitter.value(following, block)
         name = self.frame.namer(f"next_{array}")
-        block.assign(name, self.frame.call_of("select", "pair == 0", begun, further), following.kind)
+        block.assign(name, self._next(following, first, block, emitter), following.kind)
         block.last.append(self.frame.store(array, name, following.kind))
+
+    def _next(self, following: Node, first: Node, block: Block, emitter: Emitter) -> str:
+        """What follows, or what is first for the first robot."""
+        begins, call = ("pair == 0", COMPARISON), self.frame.call_of
+        if (
+            following.operation == "select"
+            and following.operands[1] is first
+            and following.kind is Kind.NUMBER
+        ):
+            condition, term, so_far = following.operands
+            chosen, _ = infix("|", begins, emitter.text(condition, block))
+            return call("blend", chosen, emitter.value(term, block), emitter.value(so_far, block))
+        return call("select", begins[0], emitter.value(first, block), emitter.value(following, block))
 
     def _gather(self, node: Node, block: Block, emitter: Emitter) -> str:
         """Compute values that have nothing in common one by one."""

@@ -154,6 +154,16 @@ def _chosen(comparison: str) -> Emit:
     return emit
 
 
+def _blended(builder: ir.IRBuilder, condition: ir.Value, then: ir.Value, otherwise: ir.Value) -> ir.Value:
+    """`otherwise ^ ((then ^ otherwise) & mask)`."""
+    mask, one, other = (
+        builder.sext(condition, WORD),
+        builder.bitcast(then, WORD),
+        builder.bitcast(otherwise, WORD),
+    )
+    return builder.bitcast(builder.xor(other, builder.and_(builder.xor(one, other), mask)), FLOAT)
+
+
 def _maximum_where(
     builder: ir.IRBuilder, found: Signature, highest: ir.Value, condition: ir.Value, other: ir.Value
 ) -> ir.Value:
@@ -188,6 +198,11 @@ FIXED: tuple[tuple[Function, Signature, Emit], ...] = (
         lambda builder, _found, total, condition, term: builder.select(
             condition, builder.fadd(total, term), total
         ),
+    ),
+    (
+        primitives.blend,
+        float64(boolean, float64, float64),
+        lambda builder, _found, *values: _blended(builder, *values),
     ),
     (primitives.cell_of, int64(boolean), lambda builder, _found, truth: builder.zext(truth, WORD)),
     (primitives.copysign, float64(float64, float64), _llvm("llvm.copysign", 2)),

@@ -31,6 +31,11 @@ def select(condition: bool, then: Value, otherwise: Value) -> Value:
     return then if condition else otherwise
 
 
+def blend(condition: bool, then: float, otherwise: float) -> float:
+    """The same for floats, bit by bit: LLVM chooses between two places in memory first, and no vector can then."""
+    return then if condition else otherwise
+
+
 def minimum(a: Value, b: Value) -> Value:
     """The smaller one; a where they do not compare."""
     return b if b < a else a  # noqa: FURB136 - not min: this is what the hardware is told
@@ -111,6 +116,7 @@ def ceil(x: float) -> float:
 
 PRIMITIVES = (
     select,
+    blend,
     add_where,
     maximum_where,
     cell_of,

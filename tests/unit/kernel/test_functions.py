@@ -323,6 +323,7 @@ EXPRESSIONS = (
     "power(x, y)",
     "select(is_finite(x) & (x < y), 1.0, 2.0)",
     "add_where(x, x < y, y)",
+    "blend(x < y, x, y)",
     "maximum_where(x, is_finite(x), y)",
     "maximum_where(-5, x < y, cell_of(y < 1.0)) * 0.5",
 )
