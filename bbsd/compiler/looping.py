@@ -99,19 +99,17 @@ class Loops:
         """Fold for each robot what it sees of those that it looks at, in the loop over them."""
         others, numbers = cast("tuple[bool, tuple[int, ...]]", node.data)
         stage = emitter.stage_of[node.number]
-        block, new = emitter.blocks.pair(stage, others=others), list[int]()
-        for number in numbers:
-            if (stage, number) not in self.folds:
-                hinted = emitter.hints.get(node.number) if number == numbers[0] else None
-                self.folds[stage, number] = (
-                    self.frame.keep(hinted, node.operands[0].kind, node.level)
-                    if hinted
-                    else self.frame.keep_numbered("over", node.operands[0].kind, node.level)
-                )
-                new.append(number)
-        for number, following, first in zip(numbers, node.operands[::2], node.operands[1::2], strict=True):
-            if number in new:
-                self._write_fold(number, following, first, block, emitter)
+        block = emitter.blocks.pair(stage, others=others)
+        folds = list(zip(numbers, node.operands[::2], node.operands[1::2], strict=True))
+        new = [fold for fold in folds if (stage, fold[0]) not in self.folds]
+        for number, following, _ in new:
+            self.folds[stage, number] = (
+                self._new("over", node, emitter)
+                if number == numbers[0]
+                else self.frame.keep_numbered("over", following.kind, node.level)
+            )
+        for number, following, first in new:
+            self._write_fold(number, following, first, block, emitter)
         return self.folds[stage, numbers[0]]
 
     def _write_fold(self, number: int, following: Node, first: Node, block: Block, emitter: Emitter) -> None:

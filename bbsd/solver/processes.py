@@ -34,10 +34,9 @@ ENVIRONMENT = {"PYTHONSAFEPATH": "1", "PYTHONWARNINGS": "ignore:resource_tracker
 
 
 class Processes:
-    """So many processes that wait for work."""
+    """Processes that wait for work."""
 
-    def __init__(self, count: int, executor: Executor, lifeline: Connection) -> None:
-        self.count = count
+    def __init__(self, executor: Executor, lifeline: Connection) -> None:
         self.used = False
         self._executor = executor
         self._lifeline = lifeline
@@ -67,7 +66,7 @@ def waiting(count: int) -> Iterator[Processes]:
     reader, lifeline = Pipe(duplex=False)
     with _environment():
         executor = ProcessPoolExecutor(count, initializer=_begin, initargs=(reader,))
-        processes = Processes(count, executor, lifeline)
+        processes = Processes(executor, lifeline)
         resource_tracker.ensure_running()  # it would unblock interrupts when it is started with the first worker
         try:
             with _no_interrupts():
