@@ -141,7 +141,7 @@ def draw(axes: dict[str, tuple[int, ...]], curves: dict[str, Floats], exponents:
         axis.loglog(relative, curves[name] / curves[name][0], marker=marker, markersize=5, label=label)
     axis.axline((1, 1), (2, 2), color="0.6", linewidth=1, linestyle="--", zorder=0, label="in proportion: 1")
     axis.set_xlim(0.9, 50)
-    axis.set_ylim(0.4, 16)
+    axis.set_ylim(0.4, 50)
     axis.set_xlabel("size, relative to the smallest")
     axis.set_ylabel("time, relative to the smallest")
     axis.set_xticks([1, 2, 4, 8, 16, 32], ["1", "2", "4", "8", "16", "32"], minor=False)
