@@ -111,7 +111,9 @@ def _dependent(path: Path) -> set[str]:
         case ("behaviors",):
             return {"BB042"}
         case ("behaviors", _, "inputs"):
-            return {"BB034"}
+            return {"BB034", "BB046"}
+        case ("behaviors", _, "inputs" | "actions", *_):
+            return {"BB046"}
         case ("design", *_):
             return {"BB042", "BB043"}
     return set()

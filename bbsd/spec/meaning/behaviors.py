@@ -89,7 +89,11 @@ def _given(written: Behavior, inputs: Inputs, path: Path, names: Names, silent: 
     if written.rules is not None:
         advice = "keep one of them; what a spec extends is taken away by rules: null or table: null"
         findings.tell((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)
-    is_known = not silent and not findings.told_below((*path, "inputs"))
+    is_known = (
+        len(inputs) == len(written.inputs)
+        and not findings.told_below((*path, "inputs"))
+        and names.unusable.keys().isdisjoint({*written.inputs, *actions})
+    )
     return table_of_text(written.table, inputs, actions, (*path, "table"), findings, is_known=is_known)
 
 

@@ -112,3 +112,21 @@ def test_what_yaml_reads_as_a_number_is_not_taken_for_another_table(written: str
 
 def test_rules_and_a_table_exclude_each_other() -> None:
     assert codes("behaviors: {stop: {table: '.1', rules: [otherwise: halt]}}") == ["BB047"]
+
+
+TWO = """
+bbsd: 1
+name: two
+environment: {{steps: 5, state: {{x: 0}}}}
+behaviors:
+  walk: {{inputs: {{at: "{at}"}}, actions: {{right: {{x: x + 1}}}}, table: "11x1"}}
+  stay: {{actions: {{hold: {{x: x}}}}, table: 01}}
+reward: {{near: x}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("at", "found"), [("values(x, 0, 9)", ["BB046", "BB046", "BB022"]), ("[1, 2]", ["BB051", "BB022"])]
+)
+def test_a_table_is_told_of_beside_mistakes_elsewhere_but_not_of_what_follows_from_them(at, found):
+    assert [each.code for each in check(Source("two.yaml", TWO.format(at=at)))] == found
