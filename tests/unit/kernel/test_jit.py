@@ -7,7 +7,7 @@ import numba
 import pytest
 
 import bbsd
-from bbsd.kernel.jit import jit
+from bbsd.kernel.jit import jit, with_widest_vectors
 from bbsd.kernel.modules import load_kernel
 
 ROOT = Path(bbsd.__file__).parent.parent
@@ -126,3 +126,18 @@ def test_numba_s_configuration_in_the_working_folder_is_not_read(tmp_path: Path,
 def test_a_broken_configuration_in_the_working_folder_does_no_harm(tmp_path: Path) -> None:
     (tmp_path / ".numba_config.yaml").write_text("{")
     assert run("from bbsd.kernel.jit import jit; print(jit(lambda x: x + 1)(1))", tmp_path) == ["2"]
+
+
+@pytest.mark.parametrize("host", ["+avx2,-avx512f", "", "+neon"])
+def test_vectors_are_left_as_they_are_where_there_are_no_wider_ones(host: str) -> None:
+    assert with_widest_vectors(host) == host
+
+
+def test_the_widest_vectors_are_used() -> None:
+    assert with_widest_vectors("+avx2,+avx512f") == "+avx2,+avx512f,-prefer-256-bit"
+
+
+def test_the_user_s_own_features_are_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CPU_FEATURES", "+sse2")
+    program = "from bbsd.kernel.jit import jit; import numba; print(numba.config.CPU_FEATURES, jit(lambda x: x + 1)(1))"
+    assert run(program, tmp_path) == ["+sse2", "2"]
