@@ -81,8 +81,7 @@ class Decision:
     @property
     def sensed(self) -> list[Node]:
         """What decisions depend on."""
-        modules = self.frame.episode.modules
-        return [node for module in modules for nodes in (module.excited, *module.cells) for node in nodes]
+        return [node for module in self.frame.episode.modules for node in module.nodes]
 
     @cached_property
     def _looked_up(self) -> dict[tuple[int, int], tuple[str, str]]:

@@ -43,6 +43,8 @@ class Frame:
     shapes: Sequence[TableShape]
     lanes: int
     detail: Detail
+    certain: tuple[Node, ...] = ()
+    """Truths without which the episode is to be lived in detail."""
     tables: dict[str, str] = field(default_factory=dict)
     """Tables with an entry for each robot, source and name: they stand before the function."""
     namer: Namer = field(default_factory=Namer)
@@ -164,23 +166,13 @@ class Frame:
     def outputs(self) -> list[Node]:
         """What a step computes: what is asked for, and every slot that this reads in a later step, and so on."""
         episode = self.episode
-        wanted = [
-            node for module in episode.modules for nodes in (module.excited, *module.cells) for node in nodes
-        ]
-        wanted += [node for nodes in episode.reward.values() for node in nodes]
-        wanted += [] if episode.ends is None else [episode.ends]
+        wanted = [*credited(episode), *self.certain]
         if self.detail is not Detail.CREDIT:
             wanted += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
             wanted += [node for nodes in episode.expects.values() for node in nodes]
         if self.detail is Detail.TRACE:
             wanted += [*episode.after.values(), *self.traced_definitions.values()]
-        kept: set[Slot] = set()
-        while True:
-            every = [*wanted, *(episode.after[slot] for slot in episode.after if slot in kept)]
-            read = {cast("Slot", node.data) for node in needed(every) if node.operation == "slot"}
-            if read == kept:
-                return every
-            kept = read
+        return with_slots_read(wanted, episode)
 
     @property
     def traced_definitions(self) -> dict[Slot, Node]:
@@ -208,6 +200,11 @@ class Frame:
     def running(self) -> str | None:
         """The array that is 1 while a lane's episode goes on; None where episodes do not end early."""
         return None if self.episode.ends is None else self.keep("running_")
+
+    @cached_property
+    def doubt(self) -> str | None:
+        """The array that is 1 once something of a lane was not certain; None where all always is."""
+        return self.keep("doubt") if self.certain else None
 
     def while_running(self, text: str, otherwise: str = "0.0") -> str:
         """A value, or 0 once the lane's episode is over."""
@@ -246,6 +243,24 @@ class Frame:
             for name, value in self.meaning.constants.values.items()
             for place in _places(value)
         ]
+
+
+def credited(episode: Episode) -> list[Node]:
+    """What returns and credit depend on in each step."""
+    decided = [node for module in episode.modules for node in module.nodes]
+    earned = [node for nodes in episode.reward.values() for node in nodes]
+    return [*decided, *earned, *([] if episode.ends is None else [episode.ends])]
+
+
+def with_slots_read(wanted: Iterable[Node], episode: Episode) -> list[Node]:
+    """Nodes of a step and those of all slots that they read in a later step, and so on."""
+    wanted, kept = list(wanted), set[object]()
+    while True:
+        every = [*wanted, *(node for slot, node in episode.after.items() if slot in kept)]
+        read = {node.data for node in needed(every) if node.operation == "slot"}
+        if read == kept:
+            return every
+        kept = read
 
 
 def indented(lines: Iterable[str], depth: int) -> list[str]:

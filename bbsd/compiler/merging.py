@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.behaviors import Module
     from bbsd.spec.meaning.episode import Episode
     from bbsd.spec.meaning.names import Slot
 
@@ -30,24 +29,12 @@ def merged(meaning: Meaning) -> Meaning:
     if all(slot == first for slot, first in groups.items()):
         return meaning
     every = [*episode.after.values(), *episode.acted.values(), *episode.definitions.values()]
-    every += [node for module in episode.modules for node in _nodes_of(module)]
+    every += [node for module in episode.modules for node in module.nodes]
     every += [node for nodes in episode.reward.values() for node in nodes]
     every += [episode.ends] if episode.ends is not None else []
     every += [node for nodes in episode.expects.values() for node in nodes]
     found = _read_from(groups, every, graph)
-    changed = replace(
-        episode,
-        modules=tuple(_renamed(module, found) for module in episode.modules),
-        acted={slot: found[node.number] for slot, node in episode.acted.items()},
-        after={slot: found[node.number] for slot, node in episode.after.items()},
-        definitions={slot: found[node.number] for slot, node in episode.definitions.items()},
-        reward={term: tuple(found[node.number] for node in nodes) for term, nodes in episode.reward.items()},
-        ends=None if episode.ends is None else found[episode.ends.number],
-        expects={
-            name: tuple(found[node.number] for node in nodes) for name, nodes in episode.expects.items()
-        },
-    )
-    return replace(meaning, episode=changed)
+    return replace(meaning, episode=episode.with_nodes(lambda node: found[node.number]))
 
 
 def _groups(episode: Episode, graph: Graph) -> dict[Slot, Slot]:
@@ -87,17 +74,3 @@ def _read_from(groups: Mapping[Slot, Slot], outputs: Iterable[Node], graph: Grap
         else:
             found[node.number] = graph.apply(node.operation, *operands, data=node.data)
     return found
-
-
-def _nodes_of(module: Module) -> list[Node]:
-    cells = [node for robot in module.cells for node in robot]
-    return [*cells, *module.excited]
-
-
-def _renamed(module: Module, found: Renamed) -> Module:
-    """The module with its cells and excitation read anew; what its actions set stands in the acted state already."""
-    return replace(
-        module,
-        cells=tuple(tuple(found[node.number] for node in robot) for robot in module.cells),
-        excited=tuple(found[node.number] for node in module.excited),
-    )

@@ -20,8 +20,9 @@ from bbsd.kernel.modules import load_kernel
 from bbsd.spec.meaning.size import Size, size_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
+    from bbsd.compiler.team import Rollout
     from bbsd.spec.meaning import Meaning
     from bbsd.spec.meaning.names import Slot
 
@@ -98,12 +99,12 @@ class Problem:
         return ThreadPoolExecutor(self.jobs)
 
     @cached_property
-    def rollout(self) -> Callable[..., None]:
+    def rollout(self) -> Rollout:
         """The kernel that the life loop calls."""
         return self._quiet(self._module.rollout)
 
     @cached_property
-    def rollout_detailed(self) -> Callable[..., None]:
+    def rollout_detailed(self) -> Rollout:
         """The kernel that evaluation calls."""
         return self._quiet(self._module.rollout_detailed)
 
@@ -112,14 +113,14 @@ class Problem:
         """How many numbers a kernel works with."""
         return cast("int", self._module.MEMORY)
 
-    def _quiet(self, function: Callable[..., None]) -> Callable[..., None]:
+    def _quiet(self, function: Rollout) -> Rollout:
         """Infinities and NaN are values in every mode; NumPy's scalars would warn of them in plain Python."""
         if self.compiled:
             return function
 
-        def quiet(*arguments: object) -> None:
+        def quiet(*arguments: object) -> bool | None:
             with np.errstate(all="ignore"):
-                function(*arguments)
+                return function(*arguments)
 
         return quiet
 

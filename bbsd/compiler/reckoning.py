@@ -7,7 +7,7 @@ from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.frame import Detail
+from bbsd.compiler.frame import OWN, Detail
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.texts import ATOM, sum_of, times
 from bbsd.expression.graph import Kind
@@ -92,6 +92,17 @@ class Reckoning:
                     controls = self._controls(index, robot, emitter, end)
                     kept = self.frame.call_of("add_where", kept, controls, each)
                 lines.append(f"{name}[lane] = {kept}")
+
+    def add_doubt(self, doubt: str, emitter: Emitter, end: Closing) -> None:
+        """Note that something was not certain, of a robot or of the team."""
+        for own in (False, True):
+            block = end.knowing(own=own)
+            truths = [node for node in self.frame.certain if (node.level in OWN) is own]
+            if truths:
+                certain = " & ".join(f"({emitter.value(node, block)})" for node in truths)
+                more = self.frame.while_running("1.0", f"{doubt}[lane]")
+                now = self.frame.call_of("select", certain, f"{doubt}[lane]", more)
+                block.lines.append(f"{doubt}[lane] = {now}")
 
     def _team(self, earned: list[str], end: Closing) -> str:
         """What the team earned: its robots' sum, the first one's first."""

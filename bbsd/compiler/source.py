@@ -6,6 +6,7 @@ vectorizes. A lane is an agent in an episode. `docs/rollout.md` states the funct
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.deciding import Decision
@@ -15,6 +16,7 @@ from bbsd.compiler.reckoning import DETAILED, Reckoning
 from bbsd.compiler.rolling import MOST_WRITTEN_OUT, rolled
 from bbsd.compiler.schedule import Closing, closing
 from bbsd.compiler.splitting import written
+from bbsd.compiler.tangents import by_tangents
 from bbsd.expression.graph import Kind
 from bbsd.kernel import functions, memory, streams
 from bbsd.version import __version__
@@ -47,7 +49,9 @@ def module_source(
     texts, used, tables, memory_size = [], set(), dict[str, str](), 0
     short = rolled(meaning, written_out)
     for detail in details:
-        frame = Frame(meaning if detail is Detail.TRACE else short, shapes, lanes, detail, tables)
+        told = meaning if detail is Detail.TRACE else short
+        episode, certain = by_tangents(told.episode) if detail is Detail.CREDIT else (told.episode, ())
+        frame = Frame(replace(told, episode=episode), shapes, lanes, detail, certain, tables)
         texts.append(f"\n{rollout_source(frame)}")
         used |= frame.used
         memory_size = max(memory_size, frame.size)
@@ -85,8 +89,14 @@ def rollout_source(frame: Frame) -> str:
             f"        for step in range(1, {frame.meaning.spec.environment.steps + 1}):",
             *indented(step, 3),
             *indented(finish, 2),
+            *([] if frame.doubt is None else _told(frame.doubt)),
         ]
     )
+
+
+def _told(doubt: str) -> list[str]:
+    """The lines that tell the caller whether a lane was in doubt, as soon as one was."""
+    return [f"        if {doubt}.sum() > 0.0:", "            return True", "    return False"]
 
 
 def _start(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
@@ -103,6 +113,7 @@ def _start(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
         blocks[slot].lines.append(frame.store(frame.slots[slot], text, wanted[slot].kind))
     team, own = reckoning.start()
     first.lines += [*team, *([] if frame.running is None else [f"{frame.running}[lane] = 1.0"])]
+    first.lines += [] if frame.doubt is None else [f"{frame.doubt}[lane] = 0.0"]
     end.each.lines += own
     return written(emitter.blocks, frame, split=frame.looped)
 
@@ -121,6 +132,8 @@ def _step(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
     after = _after(frame, emitter, end)
     end.each.lines.append("# Reward: what each robot earned goes to what controlled it.")
     reckoning.add(emitter, end)
+    if frame.doubt is not None:
+        reckoning.add_doubt(frame.doubt, emitter, end)
     if frame.detail is not Detail.CREDIT:
         end.each.lines.append("# What an evaluation adds up.")
         reckoning.add_details(emitter, end)

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from bbsd.compiler.problem import Problem
 
+    Rollout = Callable[..., bool | None]
+    """Lives lanes; whether it is in doubt of what came out."""
+
 NEVER = -(1 << 40)
 """The priority of a behavior that is not in the structure."""
 
@@ -79,11 +82,17 @@ class Team:
         self._priorities = np.full((problem.n_behaviors, padded), NEVER, np.int64)
         actions = [0, *np.cumsum([table.n_actions for table in problem.tables])[:-1]]
         self._first_actions = np.array(actions, np.int64)
+        self._doubtful = False  # doubts come from what a spec says, so one is seldom alone
 
     def episode(self, keys: Keys, structures: Integers) -> Outcome:
         """Live one episode: keys (n_agents,) name its streams, structures (n_agents, n_layers) order the behaviors."""
-        returns, credit = self._outputs(1)[0], self._outputs(self.problem.n_behaviors + 1)
-        self._live(self.problem.rollout, *self._inputs(keys, structures), returns, credit)
+        if not self._doubtful:
+            returns, credit = self._outputs(1)[0], self._outputs(self.problem.n_behaviors + 1)
+            inputs = self._inputs(keys, structures)
+            self._doubtful = self._live(self.problem.rollout, *inputs, returns, credit)
+        if self._doubtful:
+            detailed = self.detailed_episode(keys, structures)
+            return Outcome(detailed.returns, detailed.credit)
         return Outcome(returns[: self.size], credit[:, : self.size].T)
 
     def detailed_episode(self, keys: Keys, structures: Integers) -> DetailedOutcome:
@@ -94,7 +103,7 @@ class Team:
         return DetailedOutcome(returns, credit, terms, control, taken, odd, held)
 
     def traced_episode(
-        self, rollout: Callable[..., None], memory: int, key: int, structure: Integers, record: Floats
+        self, rollout: Rollout, memory: int, key: int, structure: Integers, record: Floats
     ) -> int:
         """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken.
 
@@ -115,14 +124,16 @@ class Team:
         shapes += [(len(self.problem.places), *lanes), (len(episode.expects), *lanes)]
         return [np.zeros(shape) for shape in shapes]
 
-    def _live(self, rollout: Callable[..., None], *arrays: object) -> None:
-        """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock."""
-        spans = self._spans()
+    def _live(self, rollout: Rollout, *arrays: object) -> bool:
+        """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock.
+
+        Whether any was in doubt, and nothing that came out is valid.
+        """
+        spans, memory = self._spans(), self.problem.memory
         if len(spans) == 1:
-            rollout(*spans[0], zeros(self.problem.memory), *arrays)
-            return
-        memory = self.problem.memory
-        list(self.problem.threads.map(lambda span: rollout(*span, zeros(memory), *arrays), spans))
+            return bool(rollout(*spans[0], zeros(memory), *arrays))
+        doubts = self.problem.threads.map(lambda span: rollout(*span, zeros(memory), *arrays), spans)
+        return any(list(doubts))
 
     def _spans(self) -> list[tuple[int, int]]:
         """Which lanes each thread runs, whole batches of them."""

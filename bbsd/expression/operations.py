@@ -44,6 +44,7 @@ CALLED: Mapping[str, Callable[..., Any]] = MappingProxyType(
         "whole_power": functions.whole_power,
         "minimum": functions.minimum,
         "maximum": functions.maximum,
+        "tangent_slack": functions.tangent_slack,
         "select": functions.select,
         "cell_of": functions.cell_of,
         "clamp_index": functions.clamp_index,

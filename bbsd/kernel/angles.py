@@ -9,6 +9,7 @@ HALF_PI, HALF_PI_REST = 1.5707963267948966, 6.123233995736766e-17
 QUARTER_PI, QUARTER_PI_REST = 0.7853981633974483, 3.061616997868383e-17
 THREE_QUARTER_PI, THREE_QUARTER_PI_REST = 2.356194490192345, 9.184850993605148e-17
 
+STEEPEST = 1.55  # the tangent is 48 there
 LARGEST_ANGLE = 2.0**50  # beyond it an angle has no digit left that says where on the circle it is
 
 
@@ -115,6 +116,16 @@ def atan2(y: float, x: float) -> float:
     return copysign(size, y)
 
 
+def tangent_slack(angle: float) -> float:
+    """What a number differs at least from tan(angle) where its arctangent certainly compares with the angle alike.
+
+    Three hundred times what rounding can come to (`atan`, `tan`, degrees, a difference of two arctangents: 3e-15 in
+    all), for -1.55 <= angle <= 1.55; NaN beyond, where a tangent says little.
+    """
+    tangent = tan(angle)
+    return select(abs(angle) <= STEEPEST, 1e-12 * (1.0 + tangent * tangent), NAN)
+
+
 def _arc_beyond(s: float, z: float) -> float:
     """The arcsine of s less s, 0 <= s <= 1/2, s*s = z, error 2.8e-18 of the arcsine."""
     p = 0.021734622430162158 + z * (-0.02103853675164118 + z * 0.032653932809421575)
@@ -158,6 +169,7 @@ COMPILABLE = (
     _angle,
     atan,
     atan2,
+    tangent_slack,
     _arc_beyond,
     asin,
     acos,

@@ -10,7 +10,7 @@ Functions, 2016).
 from __future__ import annotations
 
 from bbsd.kernel import angles
-from bbsd.kernel.angles import acos, asin, atan, atan2, cos, sin, tan
+from bbsd.kernel.angles import acos, asin, atan, atan2, cos, sin, tan, tangent_slack
 from bbsd.kernel.primitives import (
     INFINITY,
     NAN,
@@ -70,6 +70,7 @@ __all__ = [
     "sin",
     "sqrt",
     "tan",
+    "tangent_slack",
     "tanh",
     "whole_power",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -20,7 +20,7 @@ from bbsd.spec.models import When
 from bbsd.spec.written import Expression
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
     from bbsd.expression.scope import Path, Scope
     from bbsd.spec.meaning.names import Moment, Names
@@ -48,6 +48,19 @@ class Module:
     def n_cells(self) -> int:
         """The number of cells of the behavior's table."""
         return prod(len(cells) for cells in self.inputs.values())
+
+    @property
+    def nodes(self) -> list[Node]:
+        """All that the decision depends on."""
+        return [*(node for robot in self.cells for node in robot), *self.excited]
+
+    def with_nodes(self, new: Callable[[Node], Node]) -> Module:
+        """The same with another node for each of those."""
+        return replace(
+            self,
+            cells=tuple(tuple(map(new, robot)) for robot in self.cells),
+            excited=tuple(map(new, self.excited)),
+        )
 
 
 def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]) -> Module | None:

@@ -22,7 +22,7 @@ from bbsd.spec.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partiti
 from bbsd.spec.meaning.picture import Picture, picture
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from bbsd.spec.meaning.labels import Labels
     from bbsd.spec.written import Expression
@@ -55,6 +55,19 @@ class Episode:
     expects: Mapping[str, tuple[Node, ...]]
     picture: Picture | None
     """What a view shows, in a graph of its own."""
+
+    def with_nodes(self, new: Callable[[Node], Node]) -> Episode:
+        """The same with another node for each of a step; what actions set stands in the acted state already."""
+        return replace(
+            self,
+            modules=tuple(module.with_nodes(new) for module in self.modules),
+            acted={slot: new(node) for slot, node in self.acted.items()},
+            after={slot: new(node) for slot, node in self.after.items()},
+            definitions={slot: new(node) for slot, node in self.definitions.items()},
+            reward={term: tuple(map(new, nodes)) for term, nodes in self.reward.items()},
+            ends=None if self.ends is None else new(self.ends),
+            expects={name: tuple(map(new, nodes)) for name, nodes in self.expects.items()},
+        )
 
 
 def episode(names: Names) -> Episode | None:

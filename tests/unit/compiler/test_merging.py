@@ -64,7 +64,7 @@ def test_nothing_to_merge_leaves_the_meaning_as_it_is():
 
 def test_lifting_s_tilt_is_computed_once():
     problem = problem_of(shipped("object_lifting"))
-    source = module_source(problem.meaning, problem.tables, 1, (Detail.CREDIT,))
+    source = module_source(problem.meaning, problem.tables, 1, (Detail.TERMS,))
     assert source.count("atan(") == 1 + 1  # at the start, and in a step
 
 
