@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.frame import OWN, Detail
 from bbsd.compiler.naming import slot_text
 from bbsd.compiler.texts import ATOM, sum_of, times
-from bbsd.expression.graph import Kind
+from bbsd.expression.graph import Kind, value_of
 
 if TYPE_CHECKING:
     from bbsd.compiler.deciding import Decision
@@ -32,6 +32,8 @@ class Reckoning:
 
     frame: Frame
     decision: Decision
+    earned: dict[tuple[str, int], str] = field(default_factory=dict)
+    """What each term gave each robot in a step, where it has a name."""
 
     @cached_property
     def total(self) -> str:
@@ -121,16 +123,32 @@ class Reckoning:
     def _earned_by_robot(self, emitter: Emitter, end: Closing) -> list[str]:
         """The names of what the robots earned; the mean over robots is taken once, at the end of the episode."""
         frame = self.frame
-        self.earned = {
-            (term, robot): emitter.named(nodes[robot], f"reward_{frame.robots_name(term, robot)}", end.each)
-            for robot in range(frame.robots)
-            for term, nodes in frame.episode.reward.items()
-        }
         names = [frame.namer(frame.robots_name("earned", robot)) for robot in range(frame.robots)]
         for robot, name in enumerate(names):
-            earned = " + ".join(self.earned[term, robot] for term in frame.episode.reward)
+            earned = self._sum_of_terms(robot, emitter, end)
             end.each.lines.append(f"{name} = {frame.while_running(earned)}")
         return names
+
+    def _sum_of_terms(self, robot: int, emitter: Emitter, end: Closing) -> str:
+        """What a robot earned: its terms, the first one's first.
+
+        Where only credit is asked for, terms that are mostly 0 are added where they are not. That may leave a -0.0
+        where 0.0 was; added to sums that begin with 0.0 it is the same.
+        """
+        frame, so_far, nested = self.frame, "", 0
+        for term, nodes in frame.episode.reward.items():
+            node, wanted = nodes[robot], f"reward_{frame.robots_name(term, robot)}"
+            if so_far and frame.detail is Detail.CREDIT and _is_sometimes(node):
+                if nested == MOST_NESTED:
+                    name, nested = frame.namer.numbered("so_far"), 0
+                    end.each.assign(name, so_far)
+                    so_far = name
+                condition, value, _ = (emitter.value(operand, end.each) for operand in node.operands)
+                so_far, nested = frame.call_of("add_where", so_far, condition, value), nested + 1
+            else:
+                self.earned[term, robot] = emitter.named(node, wanted, end.each)
+                so_far = f"{so_far} + {self.earned[term, robot]}" if so_far else self.earned[term, robot]
+        return so_far
 
     def _per_robot(self, text: str) -> str:
         robots = self.frame.team
@@ -238,6 +256,11 @@ class Reckoning:
 def odd_slots(episode: Episode) -> list[Slot]:
     """The places at which a detailed rollout counts values that are not finite."""
     return [slot for slot, node in episode.after.items() if node.kind is Kind.NUMBER]
+
+
+def _is_sometimes(node: Node) -> bool:
+    """Whether a term is 0 but where a condition holds."""
+    return node.operation == "select" and node.operands[2].literal and value_of(node.operands[2]) == 0.0
 
 
 def _added(name: str, parts: list[str]) -> str:

@@ -75,8 +75,8 @@ def rollout(first, last, numbers, keys, individuals, words, tables, origins, pri
                 next_middle_0 = (next_x_0 + next_x_1) * 0.5
                 # Reward: what each robot earned goes to what controlled it.
                 reward_close_0 = -abs(next_x_0 - next_middle_0)
-                reward_close_1 = -abs(next_x_1 - next_middle_0)
                 earned_0 = select(running_[lane] > 0.0, reward_close_0, 0.0)
+                reward_close_1 = -abs(next_x_1 - next_middle_0)
                 earned_1 = select(running_[lane] > 0.0, reward_close_1, 0.0)
                 total[lane] = total[lane] + (earned_0 + earned_1)
                 credit_wait[lane] = add_where(add_where(credit_wait[lane], action_0 == 1, earned_0), action_1 == 1, earned_1)

@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from tests.unit.problems import RICH, episode_of, lived, problem_of
 
@@ -14,16 +15,20 @@ environment:
 behaviors:
   low: {{inputs: {{far: x >= 3}}, actions: {{a: {{x: x}}}}}}
   high: {{inputs: {{far: x >= 3}}, actions: {{a: {{x: x}}}}}}
-reward: {{place: {place}, each: 10}}
+reward:
+{reward}
 """
 
 
-def counting(ends="false", place="x"):
+def counting(ends="false", place="x", reward=None):
     """Robots that start at 0 and 1 and go on by 1 a step."""
-    return problem_of(COUNTING.format(ends=f'"{ends}"', place=f'"{place}"'))
+    terms = reward or f"place: {place}, each: 10"
+    lines = [f"  {name}: '{text}'" for name, text in (term.split(": ") for term in terms.split(", "))]
+    return problem_of(COUNTING.format(ends=f'"{ends}"', reward="\n".join(lines)))
 
 
 NEAR_AND_FAR = [[1, 0], [0, 1]]  # low controls near, high far
+POOLS = tuple(np.array([table], np.uint8) for table in NEAR_AND_FAR)
 
 
 def test_a_robot_s_part_goes_to_what_controlled_it():
@@ -44,6 +49,26 @@ def test_what_nobody_controlled_is_nobody_s():
 def test_terms_sum_up_to_the_return():
     outcome = episode_of(counting(), NEAR_AND_FAR, [0, 1])
     assert outcome.terms.tolist() == [[(15 + 20) / 2, 50]]
+
+
+MOSTLY_NOTHING = {
+    "the first": "far: 1 if x > 2 else 0, near: x",
+    "some": "place: 0.1 * x, far: 0.3 if x > 2 else 0, each: 0.7, odd: x if x % 2 == 1 else 0",
+    "many": ", ".join(["place: 0.1 * x", *(f"above_{n}: 0.{n} if x > {n} else 0" for n in range(1, 9))]),
+    "minus nothing": "none: -0.0 * x, never: 1 if x > 9 else 0, nor: 1 if x > 9 else -0.0",
+    "not a number": "none: x, odd: x / 0 - x / 0 if x > 3 else 0",
+    "of the team": "place: x, far: sum(1 if x[r] > 2 else 0 for r in team), near: -1 if x < 2 else 0",
+}
+
+
+@pytest.mark.parametrize("ends", ["false", "sum(x[r] for r in team) >= 8"], ids=["to the last", "an end"])
+@pytest.mark.parametrize("reward", MOSTLY_NOTHING.values(), ids=MOSTLY_NOTHING)
+def test_terms_that_are_mostly_nothing_add_up_alike_with_details_and_without(reward, ends):
+    team = counting(ends, reward=reward).assemble(POOLS, np.zeros((1, 2), np.int64), 1)
+    keys, structure = np.array([1], np.uint64), np.array([[0, 1]])
+    swift, detailed = team.episode(keys, structure), team.detailed_episode(keys, structure)
+    assert swift.returns.tobytes() == detailed.returns.tobytes()
+    assert swift.credit.tobytes() == detailed.credit.tobytes()
 
 
 def test_the_step_in_which_an_episode_ends_is_the_last_that_counts():
