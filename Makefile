@@ -3,6 +3,8 @@
 PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
+# The peers have one of their own: what they need, numba would import in every process that is measured.
+PEERS := .venv-peers
 
 .PHONY: demo test lint unit claims worlds arms figures bench clean
 
@@ -39,8 +41,8 @@ figures: $(VENV)/.demo
 	  $(BIN)/bbsd evaluate specs/$${world}_hand.yaml --plot docs/images/$$world.png || exit 1; \
 	done
 
-bench: $(VENV)/.bench
-	$(BIN)/python -m benchmarks
+bench: $(VENV)/.demo $(PEERS)/.bench
+	$(PEERS)/bin/python -m benchmarks --python $(BIN)/python
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
@@ -54,9 +56,11 @@ $(VENV)/.test: $(BIN)/python pyproject.toml
 	touch $@ $(VENV)/.demo
 
 # Peers that cannot be installed are reported as missing.
-$(VENV)/.bench: $(VENV)/.demo
-	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
+$(PEERS)/.bench: pyproject.toml
+	$(PYTHON) -m venv $(PEERS)
+	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check --editable .
+	-$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	touch $@
 
 clean:
-	rm -rf $(VENV) .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis build *.egg-info
+	rm -rf $(VENV) $(PEERS) .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis build *.egg-info

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -37,12 +38,15 @@ def main() -> int:
     parser.add_argument(
         "--quick", action="store_true", help="small sizes, few rounds; prints and writes no file"
     )
+    parser.add_argument("--python", help="whose processes are measured; this one if not given")
     parser.add_argument(
         "parts", nargs="*", metavar="PART", help=f"print only these, of {', '.join(SECTIONS)}"
     )
     arguments = parser.parse_args()
     if unknown := set(arguments.parts) - set(SECTIONS):
         parser.error(f"there is no part {', '.join(sorted(unknown))}; there are {', '.join(SECTIONS)}")
+    if arguments.python:
+        os.environ[processes.PYTHON_VARIABLE] = str(Path(arguments.python).absolute())
     on_one_core()
     parts, asked = [HEAD, machine()], []
     for name in arguments.parts or SECTIONS:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 from benchmarks.lifting import SPECS
 from benchmarks.page import Asked, table
-from benchmarks.processes import LIFTING, Spent, design_command, environment, spent
+from benchmarks.processes import LIFTING, Spent, design_command, environment, python, spent
 
 PRICED = ("object_lifting", "abstract", "mobile_robot")
 FACTOR = 2.0
@@ -83,7 +82,7 @@ def price(spec: str, folder: Path) -> dict[str, float]:
     """What the command says."""
     (folder / "warm").mkdir(mode=0o700, exist_ok=True)
     done = subprocess.run(
-        [sys.executable, "-m", "bbsd", "design", spec, "--dry-run", "--json"],
+        [python(), "-m", "bbsd", "design", spec, "--dry-run", "--json"],
         check=True,
         stdout=subprocess.PIPE,
         text=True,

@@ -25,6 +25,8 @@ PASS, HELP, CHECK = "python -c pass", "bbsd --help", "bbsd check specs/object_li
 DESIGN_LIFTING, DESIGN_ABSTRACT = "bbsd design specs/object_lifting.yaml", "bbsd design specs/abstract.yaml"
 NEW, COLD = "a new spec, library cached, to its first generation", "the same, everything cold"
 
+PYTHON_VARIABLE = "BENCHMARKED_PYTHON"
+
 BOUNDS = {HELP: 8, CHECK: 16, DESIGN_LIFTING: 1.5, DESIGN_ABSTRACT: 8, NEW: 2, COLD: 15}
 AGAINST_PASS = (HELP, CHECK)
 
@@ -85,10 +87,10 @@ def _figures(spent: Spent) -> tuple[float, float, float]:
 def measured(folder: Path, *, quick: bool) -> dict[str, list[Spent]]:
     """What each command took in each round."""
     rounds = 2 if quick else 5
-    bbsd = [sys.executable, "-m", "bbsd"]
+    bbsd = [python(), "-m", "bbsd"]
     warm = folder / "warm"
     commands: dict[str, Callable[[int], Spent]] = {
-        PASS: lambda _: spent([sys.executable, "-c", "pass"], warm),
+        PASS: lambda _: spent([python(), "-c", "pass"], warm),
         HELP: lambda _: spent([*bbsd, "--help"], warm),
         CHECK: lambda _: spent([*bbsd, "check", LIFTING], warm),
         DESIGN_LIFTING: lambda turn: spent(design_command(LIFTING, folder / f"lifting-{turn}"), warm),
@@ -110,8 +112,13 @@ def measured(folder: Path, *, quick: bool) -> dict[str, list[Spent]]:
     return found
 
 
+def python() -> str:
+    """The Python whose processes are measured: this one's would load what peers need."""
+    return os.environ.get(PYTHON_VARIABLE, sys.executable)
+
+
 def design_command(spec: str, out: Path) -> list[str]:
-    return [sys.executable, "-m", "bbsd", "design", spec, "--quiet", "--out", str(out)]
+    return [python(), "-m", "bbsd", "design", spec, "--quiet", "--out", str(out)]
 
 
 def to_first_generation(out: Path, cache: Path, steps: int) -> Spent:
