@@ -163,9 +163,6 @@ class Team:
     def _set_priorities(self, structures: Integers) -> None:
         """Higher layers bid higher; what is added makes of a choice the action's number over all behaviors."""
         self._priorities[:] = NEVER
-        agents = np.arange(self.size)
-        for layer in range(structures.shape[1]):
-            behaviors = structures[:, layer]
-            self._priorities[behaviors, agents] = ((layer + 1) << ACTION_BITS) + self._first_actions[
-                behaviors
-            ]
+        layers = np.arange(1, structures.shape[1] + 1)[:, np.newaxis] << ACTION_BITS
+        behaviors = structures.T
+        self._priorities[behaviors, np.arange(self.size)] = layers + self._first_actions[behaviors]

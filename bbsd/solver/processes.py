@@ -6,6 +6,8 @@ the next episode, or soon at any place.
 
 from __future__ import annotations
 
+import atexit
+import gc
 import os
 import signal
 import threading
@@ -106,6 +108,7 @@ def _no_interrupts() -> Iterator[None]:
 
 def _begin(lifeline: Connection) -> None:
     """Make a worker of this process."""
+    atexit.register(gc.freeze)  # as in the parent
     threading.Thread(target=_stop_with_parent, args=(lifeline, own_wish()), daemon=True).start()
     import_module(NEEDED)
 
