@@ -71,7 +71,7 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
             "",
             (
                 "Medians of rounds in which each command ran once, seed 0, Python's bytecode and the kernels "
-                "cached unless it says otherwise. "
+                "cached unless it says otherwise, of an installation without the peers. "
                 "The first generation is there when its line of `metrics.jsonl` is; the process is stopped then."
             ),
             "",
