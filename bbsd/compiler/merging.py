@@ -28,12 +28,7 @@ def merged(meaning: Meaning) -> Meaning:
     groups = _groups(episode, graph)
     if all(slot == first for slot, first in groups.items()):
         return meaning
-    every = [*episode.after.values(), *episode.acted.values(), *episode.definitions.values()]
-    every += [node for module in episode.modules for node in module.nodes]
-    every += [node for nodes in episode.reward.values() for node in nodes]
-    every += [episode.ends] if episode.ends is not None else []
-    every += [node for nodes in episode.expects.values() for node in nodes]
-    found = _read_from(groups, every, graph)
+    found = _read_from(groups, episode.nodes, graph)
     return replace(meaning, episode=episode.with_nodes(lambda node: found[node.number]))
 
 

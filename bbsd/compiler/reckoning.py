@@ -100,8 +100,9 @@ class Reckoning:
         for own in (False, True):
             block = end.knowing(own=own)
             truths = [node for node in self.frame.certain if (node.level in OWN) is own]
-            if truths:
-                certain = " & ".join(f"({emitter.value(node, block)})" for node in truths)
+            for first in range(0, len(truths), MOST_NESTED):
+                each = [emitter.value(node, block) for node in truths[first : first + MOST_NESTED]]
+                certain = each[0] if len(each) == 1 else " & ".join(f"({text})" for text in each)
                 more = self.frame.while_running("1.0", f"{doubt}[lane]")
                 now = self.frame.call_of("select", certain, f"{doubt}[lane]", more)
                 block.lines.append(f"{doubt}[lane] = {now}")

@@ -6,8 +6,9 @@ For numbers of any size, atan(u) < c where u < tan(c); and for u, v >= 0, atan(u
 
 as the left side is (tan(atan(u) - atan(v)) - tan(c)) * (1 + u * v). Both sides are rounded, and so is the arctangent
 that the language means. So there is a slack: a comparison is *certain* where the difference of the sides exceeds it,
-and the arctangents then compare alike. Where one is not, which without intent happens once in a million million times,
-the rollout says so, and the detailed one, which computes arctangents, takes its place. Every bit is as it was.
+and the arctangents then compare alike. Where one is not, the rollout says so, and the detailed one, which computes
+arctangents, takes its place. Every bit is as it was. By chance that happens once in a million million times; where
+values are whole or on a grid, an angle may be a bound's very own.
 """
 
 from __future__ import annotations
@@ -19,8 +20,6 @@ from bbsd.compiler.frame import credited, with_slots_read
 from bbsd.expression.graph import Graph, Kind, Level, Node, needed, value_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from bbsd.spec.meaning.episode import Episode
     from bbsd.spec.meaning.names import Slot
 
@@ -68,8 +67,8 @@ class _Rewriting:
 
     def __post_init__(self) -> None:
         every = needed(self.wanted)
-        first = 1 + max((node.number for node in (*every, *self.before.start.values())), default=0)
-        self.graph = Graph(first=first, bounded=False)
+        # No number of a node that lends its name to others, and is not needed, may come again.
+        self.graph = Graph(first=1 + max(node.number for node in self.before.nodes), bounded=False)
         self.slots = self._slots(every)
         for node in every:
             self._write(node)
@@ -93,28 +92,30 @@ class _Rewriting:
     def _slots(self, every: list[Node]) -> dict[Slot, Angle]:
         """Slots that can be kept as tangents: they are arctangents at the start and after each step."""
         found: dict[Slot, Angle] = {}
+        taken = {name for name, _, _ in self.before.after}
+        kept: dict[str, str] = {}
         for node in every:
             if node.operation != "slot" or node.number in self.computed or node.level not in VARYING:
                 continue
             slot = cast("Slot", node.data)
-            start, after = (self._angle(each[slot]) for each in (self.before.start, self.before.after))
+            start, after = _angle(self.before.start[slot]), self._angle(self.before.after[slot])
             if start is None or after is None or start.in_degrees is not after.in_degrees:
                 continue
             name, robot, place = slot
-            kept = (f"tangent_of_{name}", robot, place)
-            tangent = self.graph.leaf("slot", kept, Kind.NUMBER, node.level)
+            if name not in kept:
+                kept[name] = _free(f"tangent_of_{name}", taken)
+                taken.add(kept[name])
+            tangent = self.graph.leaf("slot", (kept[name], robot, place), Kind.NUMBER, node.level)
             found[slot] = Angle(tangent, after.in_degrees, start.acute and after.acute)
             self.angles[node.number] = found[slot]
         return found
 
     def _angle(self, node: Node) -> Angle | None:
-        """What a node of the episode before is the arctangent of."""
-        in_degrees = node.operation == "degrees"
-        inner = node.operands[0] if in_degrees else node
-        if inner.operation != "atan" or inner.number in self.computed:
+        """What a node of a step is the arctangent of, if that is not computed; in new nodes as far as there are any."""
+        angle = _angle(node)
+        if angle is None or (node.operands[0] if angle.in_degrees else node).number in self.computed:
             return None
-        (tangent,) = inner.operands
-        return Angle(self.found.get(tangent.number, tangent), in_degrees, _never_negative(tangent))
+        return replace(angle, tangent=self.found.get(angle.tangent.number, angle.tangent))
 
     def _write(self, node: Node) -> None:
         angle = self._angle(node)
@@ -182,23 +183,38 @@ class _Rewriting:
 
     def _episode(self) -> Episode:
         changed = self.before.with_nodes(lambda node: self.found.get(node.number, node))
-        return replace(
-            changed,
-            start=self._by_tangents(self.before.start, self.before.start),
-            after=self._by_tangents(changed.after, self.before.after),
-        )
+        # Nothing notes whether a comparison at the start is certain, so there all is as it was.
+        start = {
+            self._renamed(slot): cast("Angle", _angle(node)).tangent if slot in self.slots else node
+            for slot, node in self.before.start.items()
+        }
+        after = {
+            self._renamed(slot): (
+                cast("Angle", self._angle(self.before.after[slot])).tangent if slot in self.slots else node
+            )
+            for slot, node in changed.after.items()
+        }
+        return replace(changed, start=start, after=after)
 
-    def _by_tangents(self, slots: Mapping[Slot, Node], before: Mapping[Slot, Node]) -> dict[Slot, Node]:
-        """Slots with those kept as tangents renamed."""
-        found = {}
-        for slot, node in slots.items():
-            if slot in self.slots:
-                angle = self._angle(before[slot])
-                kept = cast("Slot", self.slots[slot].tangent.data)
-                found[kept] = node if angle is None else angle.tangent
-            else:
-                found[slot] = node
-        return found
+    def _renamed(self, slot: Slot) -> Slot:
+        return cast("Slot", self.slots[slot].tangent.data) if slot in self.slots else slot
+
+
+def _free(wanted: str, taken: set[str]) -> str:
+    """The name wanted, with underscores behind it if a slot of the designer's has it."""
+    while wanted in taken:
+        wanted += "_"
+    return wanted
+
+
+def _angle(node: Node) -> Angle | None:
+    """What a node is the arctangent of."""
+    in_degrees = node.operation == "degrees"
+    inner = node.operands[0] if in_degrees else node
+    if inner.operation != "atan":
+        return None
+    (tangent,) = inner.operands
+    return Angle(tangent, in_degrees, _never_negative(tangent))
 
 
 def _never_negative(node: Node) -> bool:

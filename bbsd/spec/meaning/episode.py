@@ -56,6 +56,15 @@ class Episode:
     picture: Picture | None
     """What a view shows, in a graph of its own."""
 
+    @property
+    def nodes(self) -> list[Node]:
+        """All that is said of the start and of a step, but for what actions set before it is put together."""
+        found = [*self.start.values(), *self.acted.values(), *self.after.values(), *self.definitions.values()]
+        found += [node for module in self.modules for node in module.nodes]
+        for nodes in (self.choices, *self.reward.values(), *self.expects.values()):
+            found += nodes
+        return found if self.ends is None else [*found, self.ends]
+
     def with_nodes(self, new: Callable[[Node], Node]) -> Episode:
         """The same with another node for each of a step; what actions set stands in the acted state already."""
         return replace(

@@ -60,15 +60,15 @@ def arctangents_of_a_step(problem):
     return source_of(problem).split("for step in")[1].replace("tan2(", "").count("atan(")
 
 
-def team_of(problem, n_agents=24):
-    agents = random_agents(problem, 0, n_agents)
-    keys = np.random.default_rng(0).integers(0, 2**64, n_agents, dtype=np.uint64)
+def team_of(problem, n_agents=24, seed=0):
+    agents = random_agents(problem, seed, n_agents)
+    keys = np.random.default_rng(seed).integers(0, 2**64, n_agents, dtype=np.uint64)
     return problem.assemble(agents.pools, agents.members, 1), keys, agents.structures
 
 
-def both(problem):
+def both(problem, seed=0):
     """All bits of what the rollout and the detailed one give, and whether the first was in doubt."""
-    team, keys, structures = team_of(problem)
+    team, keys, structures = team_of(problem, seed=seed)
     outcome, detailed = team.episode(keys, structures), team.detailed_episode(keys, structures)
     bits = [[each.returns.tobytes(), each.credit.tobytes()] for each in (outcome, detailed)]
     return bits[0], bits[1], team._doubtful
@@ -83,6 +83,8 @@ COMPARED = {
     "with nothing": {"slope": "atan(x)", "leaning": "slope > none"},
     "risen": {"reward": "1 if slope - before(slope) > 0.05 else -1"},
     "fallen by a constant": {"reward": "1 if slope - before(slope) <= -steep / 6 else -1"},
+    "one within another": {"reward": "1 if atan(hypot(x, 1 if atan(y) > 0.3 else 2)) > 0.9 else 0"},
+    "many": {"reward": "sum(1 if atan(x * k) > 0.1 else 0 for k in range(400))"},
     "two angles": {"reward": "1 if atan(abs(x)) - atan(sqrt(abs(y))) >= 0.1 else 0"},
     "an end": {"ends": 'ends: "any(slope[r] > 1.3 for r in team)"', "reward": "1 if slope < 1 else 0.5"},
 }
@@ -159,6 +161,117 @@ def test_a_doubt_after_the_end_of_an_episode_is_none():
     swift, detailed, doubtful = both(swaying(ends='ends: "step >= 2"', **settings))
     assert swift == detailed
     assert not doubtful
+
+
+def test_a_doubt_of_the_team_is_one_where_robots_are_looped_over():
+    settings = {"reward": "1 if atan(sqrt(sum(x[r] for r in team))) > 0.5 else 0", "robots": 5}
+    problem = swaying(**settings)
+    assert arctangents_of_a_step(problem) == 0
+    swift, detailed, doubtful = both(problem)
+    assert doubtful
+    assert swift == detailed
+
+
+@pytest.mark.parametrize("doubtful_lane", [None, 3, 150])
+def test_one_doubt_among_many_lanes_in_one_of_several_threads(doubtful_lane):
+    text = SWAYING.format(
+        robots=1,
+        slope="atan(sqrt(x))",
+        leaning="slope > steep",
+        y="y",
+        ends="",
+        reward="1 if slope > 1 else 0",
+    )
+    text = (
+        text.replace("steps: 8", "steps: 1500")
+        .replace("uniform(-2, 2)", "1000")
+        .replace("normal(0, 0.5)", "0")
+    )
+    text = text.replace("x: x + 0.5", "x: -1").replace("x: x - 0.5", "x: 1001")
+    problem = problem_of(text, lanes=8, compiled=True, jobs=2)
+    choices = np.full(160, 2, np.uint8)
+    if doubtful_lane is not None:
+        choices[doubtful_lane] = 1
+    pools = (np.repeat(choices[:, np.newaxis], 2, axis=1), np.zeros((160, 1), np.uint8))
+    members = np.stack([np.arange(160), np.arange(160)], axis=1)
+    team = problem.assemble(pools, members, 1)
+    assert len(team._spans()) == 2
+    returns = team.episode(np.arange(160, dtype=np.uint64), np.tile([1, 0], (160, 1))).returns
+    assert returns.tolist() == [0.0 if lane == doubtful_lane else 1500.0 for lane in range(160)]
+    assert team._doubtful is (doubtful_lane is not None)
+
+
+# --- Told apart from all else in the episode
+
+
+def test_a_slot_of_the_designer_s_with_the_name_of_a_tangent():
+    text = """
+    bbsd: 1
+    name: names
+    environment:
+      robots: {robots}
+      steps: 3
+      state: {{x: "uniform(-2, 2)"}}
+      dynamics: {{x: "x + 0.5"}}
+      sensors: {{slope: "atan(x)", tangent_of_slope: "10 * x", slope_: "atan(abs(x))"}}
+    behaviors:
+      lean: {{inputs: {{steep: "slope > 0.6", steeper: "slope_ > 0.7"}}, actions: {{a: {{x: x + 1}}}}}}
+    reward: {{earned: {reward}}}
+    """
+    for robots in (1, 2, 5):
+        for reward in ("tangent_of_slope", "1"):
+            problem = problem_of(text.format(robots=robots, reward=reward))
+            assert arctangents_of_a_step(problem) == 0
+            swift, detailed, doubtful = both(problem)
+            assert swift == detailed
+            assert not doubtful
+
+
+@pytest.mark.parametrize("robots", [1, 2, 3, 5])
+@pytest.mark.parametrize(
+    "sets", ["z", "z + 3", "z + 3.5 * z", "z + 3 + z", "z * z * z + 3 * z", "z * z * z + 3 * z + 1 + z + 4"]
+)
+def test_what_nothing_earned_depends_on_has_numbers_of_its_own(sets, robots):
+    problem = problem_of(f"""
+    bbsd: 1
+    name: apart
+    environment: {{robots: {robots}, steps: 8, state: {{x: "uniform(-2, 2)", z: 0}}}}
+    behaviors:
+      lean: {{inputs: {{leaning: "(1 if atan(x) > 0.6 else 0) == 1"}}, actions: {{more: {{z: 1}}}}}}
+      rest: {{inputs: {{leaning: "(1 if atan(x) > 0.6 else 0) == 1"}}, actions: {{stay: {{z: "{sets}"}}}}}}
+    reward: {{earned: "1 if atan(x) > 0.6 else 0"}}
+    """)
+    assert arctangents_of_a_step(problem) == 0
+    swift, detailed, doubtful = both(problem)
+    assert swift == detailed
+    assert not doubtful
+
+
+@pytest.mark.parametrize("robots", [1, 2, 5])
+def test_comparisons_at_the_start_are_made_with_arctangents(robots):
+    problem = problem_of(f"""
+    bbsd: 1
+    name: drawn
+    constants: {{bound: 1.1071487177940904}}
+    environment:
+      robots: {robots}
+      steps: 1
+      state: {{z: 0}}
+      sensors: {{slope: "atan(2 if atan(1 + integers(-1, 60)) > bound else 0.2)"}}
+    behaviors:
+      lean: {{inputs: {{leaning: "slope > 0.5"}}, actions: {{more: {{z: 1}}, less: {{z: 2}}}}}}
+    reward: {{earned: z}}
+    """)
+    for seed in range(40):
+        swift, detailed, _ = both(problem, seed)
+        assert swift == detailed
+
+
+def test_thousands_of_comparisons_do_not_nest():
+    problem = swaying(robots=1, y="y / 2", reward="sum(1 if atan(x * k) > 0.1 else 0 for k in range(4000))")
+    assert (
+        max(line.count("select") for line in source_of(problem).splitlines() if "doubt[lane] =" in line) == 1
+    )
 
 
 # --- What is certain, is so
