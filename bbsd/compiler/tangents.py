@@ -44,6 +44,8 @@ def by_tangents(episode: Episode) -> tuple[Episode, tuple[Node, ...]]:
     Holds for what is needed of a step for returns and credit. Without such comparisons the episode is as it was.
     """
     outputs = with_slots_read(credited(episode), episode)
+    if not any(node.operation == "atan" for node in needed(outputs)):
+        return episode, ()
     rewriting = _Rewriting(episode, outputs)
     while left := rewriting.arctangents & {node.number for node in needed(rewriting.outputs)}:
         # Something else needs these angles; then comparing them costs nothing more.
