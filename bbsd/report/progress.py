@@ -8,8 +8,6 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
 from bbsd.report.bars import sparkline
 from bbsd.report.numbers import column
 
@@ -17,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from rich.console import Console
-    from rich.progress import TaskID
+    from rich.progress import Progress, TaskID
 
     from bbsd.report.shown import Generation
 
@@ -48,6 +46,8 @@ def episodes_lived(console: Console) -> Iterator[Callable[[int, int], None]]:
     if not console.is_terminal:
         yield lambda _done, _total: None
         return
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
     columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn(compact=True))
     with Progress(*columns, console=console, transient=True) as line:
         task = line.add_task("compiling", total=None)
@@ -89,6 +89,8 @@ def _print_tenths(console: Console, generation: Generation) -> None:
 
 
 def _live(console: Console) -> Progress:
+    from rich.progress import Progress, TextColumn, TimeRemainingColumn
+
     return Progress(
         TextColumn("{task.description}", markup=False),
         TextColumn("{task.fields[means]}", markup=False),
