@@ -49,9 +49,9 @@ def module_source(
     texts, used, tables, memory_size = [], set(), dict[str, str](), 0
     short = rolled(meaning, written_out)
     for detail in details:
-        told = meaning if detail is Detail.TRACE else short
-        episode, certain = by_tangents(told.episode) if detail is Detail.CREDIT else (told.episode, ())
-        frame = Frame(replace(told, episode=episode), shapes, lanes, detail, certain, tables)
+        meant = meaning if detail is Detail.TRACE else short
+        episode, certain = by_tangents(meant.episode) if detail is Detail.CREDIT else (meant.episode, ())
+        frame = Frame(replace(meant, episode=episode), shapes, lanes, detail, certain, tables)
         texts.append(f"\n{rollout_source(frame)}")
         used |= frame.used
         memory_size = max(memory_size, frame.size)
@@ -89,12 +89,12 @@ def rollout_source(frame: Frame) -> str:
             f"        for step in range(1, {frame.meaning.spec.environment.steps + 1}):",
             *indented(step, 3),
             *indented(finish, 2),
-            *([] if frame.doubt is None else _told(frame.doubt)),
+            *([] if frame.doubt is None else _ends_in_doubt(frame.doubt)),
         ]
     )
 
 
-def _told(doubt: str) -> list[str]:
+def _ends_in_doubt(doubt: str) -> list[str]:
     """The lines that tell the caller whether a lane was in doubt, as soon as one was."""
     return [f"        if {doubt}.sum() > 0.0:", "            return True", "    return False"]
 
