@@ -227,7 +227,7 @@ def test_the_kernel_that_is_printed_is_the_one_that_runs():
     assert "def rollout(" in source
     assert "def rollout_detailed(" in source
     lifting = Path(__file__).parents[2] / "specs" / "object_lifting.yaml"
-    assert bbsd.api.compile(lifting).count("atan(") == 4  # the tilt once at the start and once a step
+    assert bbsd.api.compile(lifting).count("atan(") == 3  # at the start, and in steps where the tilt is told
 
 
 def test_mistakes_are_found_without_an_error(spec):
