@@ -42,7 +42,7 @@ figures: $(VENV)/.demo
 	done
 
 bench: $(VENV)/.demo $(PEERS)/.bench
-	$(PEERS)/bin/python -m benchmarks --python $(BIN)/python
+	$(PEERS)/bin/python -m benchmarks --python $(BIN)/python $(PART)
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)

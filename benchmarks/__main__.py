@@ -28,7 +28,7 @@ HEAD = """# Benchmarks
 
 Written by `make bench`. Every ratio is of times taken in alternation in one run, on one core but where several are
 spoken of; absolute times are this machine's. What is measured, and how, is in `benchmarks/`; a part alone is measured
-by `python -m benchmarks PART`.
+by `make bench PART=rollout`.
 """
 
 

@@ -14,6 +14,7 @@ values are whole or on a grid, an angle may be a bound's very own.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from math import isnan
 from typing import TYPE_CHECKING, cast
 
 from bbsd.compiler.frame import credited, with_slots_read
@@ -176,8 +177,7 @@ class _Rewriting:
         """The tangent of a bound and its slack; no slack where no comparison with it is ever certain."""
         radians = self.graph.apply("radians", bound) if angle.in_degrees else bound
         tangent, slack = (self.graph.apply(name, radians) for name in ("tan", "tangent_slack"))
-        never = slack.literal and value_of(slack) != value_of(slack)
-        return tangent, None if never else slack
+        return tangent, None if slack.literal and isnan(value_of(slack)) else slack
 
     def _certain_where(self, exceeds: str, excess: Node, slack: Node) -> None:
         certain = self.graph.apply(exceeds, self.graph.apply("abs", excess), slack)
@@ -186,20 +186,17 @@ class _Rewriting:
     def _episode(self) -> Episode:
         changed = self.before.with_nodes(lambda node: self.found.get(node.number, node))
         # Nothing notes whether a comparison at the start is certain, so there all is as it was.
-        start = {
-            self._renamed(slot): cast("Angle", _angle(node)).tangent if slot in self.slots else node
-            for slot, node in self.before.start.items()
-        }
-        after = {
-            self._renamed(slot): (
-                cast("Angle", self._angle(self.before.after[slot])).tangent if slot in self.slots else node
-            )
-            for slot, node in changed.after.items()
-        }
+        start, after = (
+            dict(self._kept(slot, node) for slot, node in slots.items())
+            for slots in (self.before.start, changed.after)
+        )
         return replace(changed, start=start, after=after)
 
-    def _renamed(self, slot: Slot) -> Slot:
-        return cast("Slot", self.slots[slot].tangent.data) if slot in self.slots else slot
+    def _kept(self, slot: Slot, node: Node) -> tuple[Slot, Node]:
+        """A slot and its value as they are kept."""
+        if slot not in self.slots:
+            return slot, node
+        return cast("Slot", self.slots[slot].tangent.data), cast("Angle", _angle(node)).tangent
 
 
 def _free(wanted: str, taken: set[str]) -> str:

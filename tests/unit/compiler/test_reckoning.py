@@ -55,6 +55,7 @@ MOSTLY_NOTHING = {
     "the first": "far: 1 if x > 2 else 0, near: x",
     "some": "place: 0.1 * x, far: 0.3 if x > 2 else 0, each: 0.7, odd: x if x % 2 == 1 else 0",
     "many": ", ".join(["place: 0.1 * x", *(f"above_{n}: 0.{n} if x > {n} else 0" for n in range(1, 9))]),
+    "something otherwise": "place: 0.1 * x, far: 1 if x > 2 else 0.5, near: 0 if x > 2 else 0.25",
     "minus nothing": "none: -0.0 * x, never: 1 if x > 9 else 0, nor: 1 if x > 9 else -0.0",
     "not a number": "none: x, odd: x / 0 - x / 0 if x > 3 else 0",
     "of the team": "place: x, far: sum(1 if x[r] > 2 else 0 for r in team), near: -1 if x < 2 else 0",
