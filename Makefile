@@ -23,13 +23,13 @@ unit: $(VENV)/.test
 	$(BIN)/pytest -n 2 --dist worksteal
 
 claims: $(VENV)/.demo
-	$(BIN)/python benchmarks/claims.py
+	$(BIN)/python experiments/claims.py
 
 worlds: $(VENV)/.demo
-	$(BIN)/python benchmarks/worlds.py
+	$(BIN)/python experiments/worlds.py
 
 arms: $(VENV)/.demo
-	$(BIN)/python benchmarks/arms.py
+	$(BIN)/python experiments/arms.py
 
 # The pictures of episodes in README.md and docs/cookbook.md.
 figures: $(VENV)/.demo

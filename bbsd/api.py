@@ -12,9 +12,9 @@ import numpy as np
 
 from bbsd.architecture import designed_text, given_architecture, require_writable, tidied
 from bbsd.compiler import Problem, compile_meaning
-from bbsd.compiler.frame import Detail
 from bbsd.compiler.problem import DEFAULT_LANES
-from bbsd.compiler.source import module_source
+from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.writing.source import module_source
 from bbsd.errors import Diagnosis, SpecError, UsageError
 from bbsd.evaluation import (
     Evaluation,
@@ -32,18 +32,18 @@ from bbsd.explanation import Explanation
 from bbsd.explanation import explain as explain_architecture
 from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.solver.command import Command, answers
-from bbsd.solver.folder import Folder, Identity, identity, new_folder, old_folder
-from bbsd.solver.interruption import interrupts_noted
-from bbsd.solver.price import Price
-from bbsd.solver.price import price as price_of
+from bbsd.language.loading import Loaded
+from bbsd.language.loading import check as check_source
+from bbsd.language.loading import load as load_source
+from bbsd.language.meaning import seed_key
+from bbsd.runs.command import Command, answers
+from bbsd.runs.folder import Folder, Identity, identity, new_folder, old_folder
+from bbsd.runs.price import Price
+from bbsd.runs.price import price as price_of
+from bbsd.runs.run import RANDOM_EPISODES, judge
+from bbsd.runs.signals import interrupts_request_stop
 from bbsd.solver.random_agents import random_agents
-from bbsd.solver.run import RANDOM_EPISODES, judge
 from bbsd.solver.settings import settings_of
-from bbsd.spec.loading import Loaded
-from bbsd.spec.loading import check as check_source
-from bbsd.spec.loading import load as load_source
-from bbsd.spec.meaning import seed_key
 from bbsd.text import Source
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from bbsd.compiler import DetailedOutcome
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
-    from bbsd.solver.processes import Processes
+    from bbsd.runs.processes import Processes
 
 EVALUATION = name_word("evaluation")
 EPISODES, EPISODES_AT_RANDOM = 1000, RANDOM_EPISODES
@@ -247,7 +247,7 @@ def design(
     folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
     command = Command(problem, settings_of(loaded.meaning), seed, runs, folder)
     stopped = Interrupted(folder.path)
-    with _reward_at_its_place(loaded), interrupts_noted(overdue and (lambda: overdue(stopped))):
+    with _reward_at_its_place(loaded), interrupts_request_stop(overdue and (lambda: overdue(stopped))):
         try:
             judged = judge(
                 answers(command, jobs, progress and _teller(command, progress), ready),

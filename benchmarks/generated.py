@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from bbsd.compiler import compile_meaning
-from bbsd.spec.loading import load
+from bbsd.language.loading import load
 from bbsd.text import Source
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from benchmarks.processes import ABSTRACT, LIFTING, design_command, spent
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bbsd.spec.loading import Loaded
+    from bbsd.language.loading import Loaded
 
     Design = Callable[[int], list[float]]
     """Of a seed: the mean fitness of each generation that was lived."""

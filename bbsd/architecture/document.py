@@ -10,8 +10,8 @@ import numpy as np
 from bbsd.architecture.architecture import Architecture
 from bbsd.architecture.written import MOST_WORDS, NO_WORDS, spec_changes
 from bbsd.errors import Diagnosis
-from bbsd.spec.meaning.rules import OPEN_CELL
-from bbsd.spec.meaning.structure import OPEN_LAYER
+from bbsd.language.meaning.rules import OPEN_CELL
+from bbsd.language.meaning.structure import OPEN_LAYER
 from bbsd.text import (
     TooLargeError,
     as_read,
@@ -23,8 +23,8 @@ from bbsd.text import (
 )
 
 if TYPE_CHECKING:
-    from bbsd.spec.loading import Loaded
-    from bbsd.spec.meaning import Meaning
+    from bbsd.language.loading import Loaded
+    from bbsd.language.meaning import Meaning
     from bbsd.text import Data, DataPath, Deletion
 
 WORDS = (MOST_WORDS, MOST_WORDS // 10, NO_WORDS)

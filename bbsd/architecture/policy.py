@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
     from bbsd.architecture.architecture import Architecture
     from bbsd.expression.graph import Node
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.behaviors import Module
-    from bbsd.spec.meaning.labels import Labels
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.meaning.labels import Labels
 
 MAX_JOINT_CELLS = 200_000
 MOST_AT_ONCE = 2_000_000

@@ -11,10 +11,10 @@ import numpy as np
 
 from bbsd.architecture.boxes import FREE, KEEP, cover, n_words
 from bbsd.expression.scope import Findings
-from bbsd.spec.meaning.partitions import TRUTH_CELLS
-from bbsd.spec.meaning.rules import OPEN_CELL
-from bbsd.spec.meaning.rules import table as table_of
-from bbsd.spec.models import NO_ACTION_TEXT, OPEN, Otherwise
+from bbsd.language.meaning.partitions import TRUTH_CELLS
+from bbsd.language.meaning.rules import OPEN_CELL
+from bbsd.language.meaning.rules import table as table_of
+from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.boxes import Box
-    from bbsd.spec.meaning.labels import Labels
-    from bbsd.spec.meaning.rules import Inputs
-    from bbsd.spec.models import Rule
+    from bbsd.language.meaning.labels import Labels
+    from bbsd.language.meaning.rules import Inputs
+    from bbsd.language.models import Rule
     from bbsd.text import Data
 
 RuleData = dict[str, "Data"]

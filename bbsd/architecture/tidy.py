@@ -13,14 +13,14 @@ import numpy as np
 from bbsd.architecture.architecture import Architecture
 from bbsd.architecture.policy import decisions, joint_space, own_cells
 from bbsd.architecture.rules import boxes_of, most_common
-from bbsd.spec.meaning.rules import NO_ACTION, OPEN_CELL
+from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.policy import JointSpace
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.behaviors import Module
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.behaviors import Module
 
 
 def tidied(meaning: Meaning, architecture: Architecture) -> Architecture:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.architecture.drawn_constants import settled_constants
 from bbsd.architecture.rules import rules_of
-from bbsd.architecture.settled import settled_constants
-from bbsd.spec.meaning.symbols import filled_text, text_of_table
-from bbsd.spec.models import OPEN
+from bbsd.language.meaning.symbols import filled_text, text_of_table
+from bbsd.language.models import OPEN
 from bbsd.text import DELETE
 
 if TYPE_CHECKING:
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.architecture import Architecture
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.behaviors import Module
-    from bbsd.spec.models import Behavior
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.models import Behavior
     from bbsd.text import Data, DataPath, Deletion
 
 MOST_WORDS = 3000

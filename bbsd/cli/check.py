@@ -72,8 +72,8 @@ def _machine_text(diagnoses: Sequence[Diagnosis], form: Format) -> str:
 
 def _checked(spec: Path) -> tuple[str, SpecError | None]:
     """Return how large the spec is, or what is wrong with it."""
+    from bbsd.language.loading import load
     from bbsd.report.size import size_text
-    from bbsd.spec.loading import load
     from bbsd.text import Source
 
     try:

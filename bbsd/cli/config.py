@@ -9,8 +9,8 @@ def config(spec: SpecFile, overrides: Overrides = None) -> None:
 
     Comments say where each value comes from: a line of the file, a default, or --set.
     """
+    from bbsd.language.loading import load
     from bbsd.report.configuration import configuration_text
-    from bbsd.spec.loading import load
     from bbsd.text import Source
 
     show(configuration_text(load(Source.read(spec), overrides=overrides or ())))

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from bbsd.api import Designed
-    from bbsd.solver.price import Price
-    from bbsd.solver.processes import Processes
+    from bbsd.runs.price import Price
+    from bbsd.runs.processes import Processes
 
 INTERRUPTED = 130
 CURVES = "curves.png"
@@ -62,7 +62,7 @@ def design(
     Evolves the behaviors, learns the structure, and writes the spec with both in it into a run's folder,
     beside the metrics of each generation and the state from which a stopped run goes on.
     """
-    from bbsd.spec.loading import load
+    from bbsd.language.loading import load
     from bbsd.text import Source
 
     if plot:
@@ -112,7 +112,7 @@ def design(
 def _workers(count: int) -> "AbstractContextManager[Processes | None]":
     if count == 0:
         return nullcontext()
-    from bbsd.solver.processes import waiting
+    from bbsd.runs.processes import waiting
 
     return waiting(count)
 
@@ -136,7 +136,7 @@ def _resuming(folder: Path) -> str:
 
 def _draw_curves(designed: "Designed") -> None:
     """Draw the metrics beside them. The answer was told before: matplotlib takes longer than a small design."""
-    from bbsd.solver.folder import Folder
+    from bbsd.runs.folder import Folder
 
     curves(Folder(designed.folder).lines(), designed.folder / CURVES)
 

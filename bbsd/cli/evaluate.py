@@ -17,7 +17,7 @@ from bbsd.report.plain import evaluation_plain, json_text
 
 if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation
-    from bbsd.spec.loading import Loaded
+    from bbsd.language.loading import Loaded
 
 TOO_LOW = 1
 """The exit code where a mean is below --at-least, or a share below --expect-at-least."""

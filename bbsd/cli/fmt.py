@@ -64,7 +64,7 @@ def _formatted(spec: Path, *, check: bool, diff: bool) -> int:
 
 def _styled(source: "Source") -> str:
     from bbsd.text import read
-    from bbsd.text.house_style import in_house_style
+    from bbsd.text.writing.house_style import in_house_style
 
     document = read(source)
     if document.diagnoses:

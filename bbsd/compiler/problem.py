@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.frame import Detail
-from bbsd.compiler.merging import merged
-from bbsd.compiler.reckoning import odd_slots
-from bbsd.compiler.source import module_source
+from bbsd.compiler.passes.shared_slots import merged
 from bbsd.compiler.tables import Pool, TableShape, shape_of
 from bbsd.compiler.team import Team
+from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.writing.source import module_source
+from bbsd.compiler.writing.totals import odd_slots
 from bbsd.kernel.modules import load_kernel
-from bbsd.spec.meaning.size import Size, size_of
+from bbsd.language.meaning.size import Size, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.compiler.team import Rollout
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.names import Slot
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.names import Slot
 
 DEFAULT_LANES = 40
 

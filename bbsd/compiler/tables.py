@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.spec.meaning.rules import NO_ACTION, OPEN_CELL
+from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.spec.meaning.behaviors import Module
+    from bbsd.language.meaning.behaviors import Module
 
 WORD_BITS = 64
 

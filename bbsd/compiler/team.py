@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.deciding import ACTION_BITS
 from bbsd.compiler.tables import Pool, cells_of, words_of
+from bbsd.compiler.writing.deciding import ACTION_BITS
 from bbsd.kernel.memory import zeros
 
 if TYPE_CHECKING:

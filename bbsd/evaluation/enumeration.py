@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bbsd.compiler import Problem
-    from bbsd.spec.meaning.constants import Constants
+    from bbsd.language.meaning.constants import Constants
 
 MAX_STARTS = 1_000_000
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.emission import TOP_BIT
+from bbsd.compiler.writing.emission import TOP_BIT
 from bbsd.expression.graph import Kind, evaluate
 from bbsd.kernel.functions import clamp_index
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, word_of
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bbsd.expression.graph import Node
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.constants import Block
-    from bbsd.spec.meaning.names import Slot
-    from bbsd.spec.meaning.picture import Picture
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.constants import Block
+    from bbsd.language.meaning.names import Slot
+    from bbsd.language.meaning.picture import Picture
 
     Stored = Mapping[Slot, float | str]
 

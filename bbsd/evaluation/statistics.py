@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.naming import slot_text
+from bbsd.compiler.writing.naming import slot_text
 from bbsd.evaluation.sums import column_sums, deviation, expectation, mean, row_means
 
 if TYPE_CHECKING:

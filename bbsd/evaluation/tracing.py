@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.frame import Detail
-from bbsd.compiler.naming import slot_text
-from bbsd.compiler.source import module_source, traced_columns
+from bbsd.compiler.writing.naming import slot_text
+from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.writing.source import module_source, traced_columns
 from bbsd.evaluation.scene import Scene, scene, starting_values
 from bbsd.kernel.modules import load_kernel
-from bbsd.spec.meaning.partitions import is_partition
+from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.labels import Labels
-    from bbsd.spec.meaning.names import Slot
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.labels import Labels
+    from bbsd.language.meaning.names import Slot
 
 EXPECTATION = ("", "failed", "held")
 """What the numbers of a record mean."""

@@ -9,7 +9,7 @@ import numpy as np
 from bbsd.architecture.boxes import FREE, KEEP, cover
 from bbsd.architecture.rules import cell_words, n_words_of, sizes_of
 from bbsd.architecture.written import MOST_WORDS
-from bbsd.spec.meaning.partitions import TRUTH_CELLS
+from bbsd.language.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.boxes import Box
-    from bbsd.spec.meaning.labels import Labels
-    from bbsd.spec.meaning.rules import Inputs
+    from bbsd.language.meaning.labels import Labels
+    from bbsd.language.meaning.rules import Inputs
 
 
 def condition(box: Box, inputs: Inputs) -> str:

@@ -13,15 +13,15 @@ from bbsd.architecture.rules import boxes_of, n_words_of, sizes_of
 from bbsd.architecture.written import MOST_WORDS
 from bbsd.explanation.conditions import condition, places
 from bbsd.explanation.vocabulary import Entry, actions_of, inputs_of
-from bbsd.spec.models import NO_ACTION_TEXT
+from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture, JointSpace
-    from bbsd.spec.meaning import Meaning
-    from bbsd.spec.meaning.behaviors import Module
-    from bbsd.spec.written import Expression
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.written import Expression
 
 
 @dataclass(frozen=True, slots=True)

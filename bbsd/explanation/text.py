@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
 from bbsd.explanation.conditions import listed
-from bbsd.spec.models import NO_ACTION_TEXT
+from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

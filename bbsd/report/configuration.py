@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.spec.base import Part
-from bbsd.spec.written import Expression
-from bbsd.text.writer import entry_lines
+from bbsd.language.base import Part
+from bbsd.language.written import Expression
+from bbsd.text.writing.writer import entry_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bbsd.spec.lineage import Lineage
-    from bbsd.spec.loading import Loaded
+    from bbsd.language.lineage import Lineage
+    from bbsd.language.loading import Loaded
     from bbsd.text import Data
     from bbsd.text.nodes import DataPath
 

@@ -126,7 +126,7 @@ def known_return() -> str:
     from bbsd.architecture import given_architecture
     from bbsd.compiler import compile_meaning
     from bbsd.evaluation import agents_of, returns_of
-    from bbsd.spec.loading import load
+    from bbsd.language.loading import load
     from bbsd.text import Source
 
     problem = compile_meaning(load(Source("known", KNOWN_SPEC)).meaning, compiled=False)

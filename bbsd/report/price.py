@@ -10,7 +10,7 @@ from bbsd.report.numbers import count, duration
 
 if TYPE_CHECKING:
     from bbsd.report.plain import Plain
-    from bbsd.solver.price import Price
+    from bbsd.runs.price import Price
 
 
 def price_plain(price: Price) -> dict[str, Plain]:

@@ -15,9 +15,9 @@ from pydantic_core import PydanticUndefined
 
 from bbsd.errors import KINDS
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, RESERVED
-from bbsd.spec import design, models, view
-from bbsd.spec.base import Part
-from bbsd.spec.written import Expression
+from bbsd.language import design, models, view
+from bbsd.language.base import Part
+from bbsd.language.written import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get
 from annotated_types import Ge, Le, MaxLen, MinLen
 
 from bbsd.expression.vocabulary import RESERVED, UNREADABLE
-from bbsd.spec import models, view, written
-from bbsd.spec.base import FREE, Part
-from bbsd.spec.written import Expression
+from bbsd.language import models, view, written
+from bbsd.language.base import FREE, Part
+from bbsd.language.written import Expression
 from bbsd.text.schema import meaning
 
 if TYPE_CHECKING:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.language.meaning.size import size_of
 from bbsd.report.numbers import count
-from bbsd.spec.meaning.size import size_of
 
 if TYPE_CHECKING:
-    from bbsd.spec.meaning import Meaning
+    from bbsd.language.meaning import Meaning
 
 
 def size_text(meaning: Meaning) -> str:

@@ -1,1 +1,1 @@
-"""The method: cooperative co-evolution, structure learning, culture, and the run of them all."""
+"""The method: cooperative co-evolution, structure learning and culture, up to the answer and its judgement."""

@@ -14,9 +14,9 @@ from bbsd.compiler import DetailedOutcome
 from bbsd.evaluation import require_finite
 from bbsd.kernel.keys import folded, units
 from bbsd.kernel.streams import name_word
-from bbsd.solver.counters import no_counters
-from bbsd.solver.interruption import heed
+from bbsd.solver.estimates import no_counters
 from bbsd.solver.structures import random_structures, search_exact, search_sampled, update_values
+from bbsd.stopping import raise_if_stopped
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,7 +55,7 @@ def live(
     returns = np.empty((len(agents), learning.lifetime))
     episodes, searches, explorations = (folded(keys, purpose) for purpose in (EPISODE, SEARCH, EXPLORE))
     for episode in range(1, learning.lifetime + 1):
-        heed()
+        raise_if_stopped()
         if learning.learned and episode > 1:
             structures = choose(problem, folded(searches, episode), values, structures, learning)
             structures = explore(problem, explorations, structures, learning, episode)

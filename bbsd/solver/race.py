@@ -10,7 +10,7 @@ import numpy as np
 from bbsd.evaluation import agents_of, returns_of
 from bbsd.evaluation.sums import deviation, row_means
 from bbsd.kernel.keys import keys
-from bbsd.solver.interruption import heed
+from bbsd.stopping import raise_if_stopped
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,7 +47,7 @@ def race(problem: Problem, entrants: Sequence[Architecture], key: int, cap: int)
     running = np.arange(len(entrants))
     earned = np.empty((len(entrants), 0))
     while earned.shape[1] < cap and len(running) > 1:
-        heed()
+        raise_if_stopped()
         done = earned.shape[1]
         count = min(max(done, FIRST_ROUND), cap - done)
         agents = agents_of([entrants[int(index)] for index in running])

@@ -10,8 +10,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from bbsd.spec.design import Answer
-    from bbsd.spec.meaning import Meaning
+    from bbsd.language.design import Answer
+    from bbsd.language.meaning import Meaning
 
 
 @dataclass(frozen=True, slots=True)

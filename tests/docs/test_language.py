@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from bbsd.language.loading import check
+from bbsd.language.meaning import mean
+from bbsd.language.models import Spec
 from bbsd.report.reference import filled
-from bbsd.spec.loading import check
-from bbsd.spec.meaning import mean
-from bbsd.spec.models import Spec
 from bbsd.text import Source, read
 
 PAGE = Path(__file__).parents[2] / "docs" / "language.md"

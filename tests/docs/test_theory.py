@@ -12,8 +12,8 @@ import pytest
 from bbsd.architecture import Architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import trace
-from bbsd.solver.counters import no_counters
-from bbsd.spec.loading import load
+from bbsd.language.loading import load
+from bbsd.solver.estimates import no_counters
 from bbsd.text import Source
 
 ROOT = Path(__file__).parents[2]

@@ -7,9 +7,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
-from bbsd.spec.loading import load
-from bbsd.spec.meaning import mean
-from bbsd.spec.models import Spec
+from bbsd.language.loading import load
+from bbsd.language.meaning import mean
+from bbsd.language.models import Spec
 from bbsd.text import Source
 from tests.interpreter.cells import given_table
 from tests.interpreter.constants import read_constants

@@ -10,8 +10,8 @@ import pytest
 
 import bbsd
 from bbsd.compiler import compile_meaning
-from bbsd.compiler.frame import Detail
-from bbsd.compiler.source import module_source
+from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.writing.source import module_source
 from bbsd.errors import SpecError
 
 TOP = Path(__file__).parents[2]

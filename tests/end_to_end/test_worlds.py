@@ -14,8 +14,8 @@ from bbsd.evaluation import agents_of, interval, returns_of, trace
 from bbsd.kernel.keys import keys
 from bbsd.report.figures import episode
 from bbsd.report.figures.files import color
+from bbsd.runs.run import generations, start
 from bbsd.solver.random_agents import random_agents
-from bbsd.solver.run import generations, start
 from bbsd.solver.settings import settings_of
 
 SPECS = Path(__file__).parents[2] / "specs"

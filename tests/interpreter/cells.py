@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Call
 from bbsd.kernel.functions import clamp_index
-from bbsd.spec.models import NO_ACTION_TEXT, OPEN, When
-from bbsd.spec.written import Expression
+from bbsd.language.models import NO_ACTION_TEXT, OPEN, When
+from bbsd.language.written import Expression
 from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from bbsd.spec.models import Behavior, Spec
+    from bbsd.language.models import Behavior, Spec
 
 OPEN_CELL = 255
 NUMBERS = {".": 0, "?": OPEN_CELL} | {str(number): number for number in range(10)}

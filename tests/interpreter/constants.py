@@ -6,12 +6,12 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.spec.written import Expression
+from bbsd.language.written import Expression
 from tests.interpreter.draws import draws_of_constant
 from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 
 if TYPE_CHECKING:
-    from bbsd.spec.models import ConstantValue, Spec
+    from bbsd.language.models import ConstantValue, Spec
 
 
 def read_constants(spec: Spec, seed: int, generation: int) -> dict[str, Value]:

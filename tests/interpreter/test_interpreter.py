@@ -7,8 +7,8 @@ import pytest
 
 from bbsd.expression.parsing import parse
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, name_word
-from bbsd.spec.models import Spec
-from bbsd.text.reader import read
+from bbsd.language.models import Spec
+from bbsd.text.reading.reader import read
 from bbsd.text.source import Source
 from tests.interpreter.cells import OPEN_CELL, given_table
 from tests.interpreter.constants import read_constants

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from bbsd.evaluation import Trace
-    from bbsd.spec.models import Spec
+    from bbsd.language.models import Spec
 
 PANEL, ROW = 1.35, 0.3
 """Heights in inches: of a value, and of a behavior."""

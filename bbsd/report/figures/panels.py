@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from bbsd.evaluation import Trace
-    from bbsd.spec.meaning.names import Slot
-    from bbsd.spec.models import Spec
+    from bbsd.language.meaning.names import Slot
+    from bbsd.language.models import Spec
 
     Lines = dict[str, list[float]]
     Stretches = dict[str, list[tuple[float, float]]]

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Name
+from bbsd.language.written import expressions_in
 from bbsd.report.figures.files import color, drawn_whole, legend, stacked
 from bbsd.report.figures.marks import draw_mark
 from bbsd.report.figures.panels import MAX_PANELS, NOBODY, draw_control, draw_lines, panels_of, rows_of
 from bbsd.report.figures.paths import draw_ends, draw_path, legend_of
 from bbsd.report.figures.plane import draw_surroundings, limits_of, taken
-from bbsd.spec.written import expressions_in
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from bbsd.evaluation import Scene, Trace
-    from bbsd.spec.models import Spec
-    from bbsd.spec.view import View
+    from bbsd.language.models import Spec
+    from bbsd.language.view import View
 
 PANEL, ROW = 0.68, 0.24
 """Least heights in inches beside a scene: of a value, and of a behavior."""

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from bbsd.architecture import Architecture
-from bbsd.spec.loading import load
+from bbsd.language.loading import load
 from bbsd.text import Source
 
 SPECS = Path(__file__).parents[3] / "specs"

@@ -6,7 +6,7 @@ import pytest
 from bbsd.architecture import Architecture, designed_text, given_architecture, require_writable
 from bbsd.compiler import compile_meaning
 from bbsd.errors import SpecError
-from bbsd.spec.loading import load
+from bbsd.language.loading import load
 from bbsd.text import Source, read
 from bbsd.text.source import MAX_BYTES
 from tests.unit.architecture.designs import random_architecture, small

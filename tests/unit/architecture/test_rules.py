@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from bbsd.architecture.rules import rules_of
 from bbsd.expression.scope import Findings
-from bbsd.spec.meaning.rules import OPEN_CELL
-from bbsd.spec.meaning.rules import table as table_of
-from bbsd.spec.models import Behavior
+from bbsd.language.meaning.rules import OPEN_CELL
+from bbsd.language.meaning.rules import table as table_of
+from bbsd.language.models import Behavior
 from bbsd.text import Source, read, write
 
 TRUTH = ("false", "true")

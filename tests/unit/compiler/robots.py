@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from bbsd.compiler import compile_meaning
-from bbsd.compiler.frame import Detail
-from bbsd.compiler.source import module_source
+from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.writing.source import module_source
 from bbsd.kernel.modules import load_kernel
+from bbsd.language.meaning import mean
+from bbsd.language.models import Spec
 from bbsd.solver.random_agents import random_agents
-from bbsd.spec.meaning import mean
-from bbsd.spec.models import Spec
 
 DETAILS = (Detail.CREDIT, Detail.TERMS)
 DETAILED = ("returns", "credit", "terms", "control", "taken", "odd", "held")

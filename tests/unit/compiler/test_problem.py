@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from bbsd.compiler.frame import Detail
-from bbsd.compiler.source import module_source
+from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.writing.source import module_source
 from bbsd.evaluation import trace
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import shipped

@@ -4,8 +4,8 @@ from textwrap import dedent
 
 import pytest
 
+from bbsd.language.loading import load
 from bbsd.report.configuration import configuration_text
-from bbsd.spec.loading import load
 from bbsd.text import Source, read
 
 TEXT = dedent("""\

@@ -1,9 +1,9 @@
 import pytest
 
 from bbsd.errors import KINDS
+from bbsd.language.base import Part
+from bbsd.language.view import View
 from bbsd.report.reference import BLOCKS, SECTIONS, filled, keys_text, mistakes_text
-from bbsd.spec.base import Part
-from bbsd.spec.view import View
 
 
 def subclasses(part):

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from bbsd.language.loading import load
 from bbsd.report.size import size_text
-from bbsd.spec.loading import load
 from bbsd.text import Source
 
 SPECS = Path(__file__).parents[3] / "specs"

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from matplotlib.figure import Figure
 
+from bbsd.language.models import Spec
 from bbsd.report.figures import episode
 from bbsd.report.figures.panels import _stretches, draw_control, failures, panels_of, rows_of
-from bbsd.spec.models import Spec
 
 
 @pytest.fixture

@@ -8,12 +8,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from bbsd.evaluation import Scene
+from bbsd.language.models import Spec
 from bbsd.report.figures import episode
 from bbsd.report.figures.marks import _moved, _room, draw_mark
 from bbsd.report.figures.paths import _angle, draw_ends, stretches_of
 from bbsd.report.figures.plane import Limits, limits_of
 from bbsd.report.figures.scene import _names_seen, legend_lines
-from bbsd.spec.models import Spec
 
 
 def scene(places=((0, 0), (4, 3)), **changes):

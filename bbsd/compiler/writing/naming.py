@@ -1,0 +1,54 @@
+"""Names in a kernel's source: the spec's own where possible, each once."""
+
+from __future__ import annotations
+
+import keyword
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from bbsd.kernel import functions, memory, streams
+
+if TYPE_CHECKING:
+    from bbsd.language.meaning.names import Slot
+
+OWN = (
+    "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "words", "tables",
+    "origins", "priorities", "constants", "returns", "credit", "terms", "control", "taken", "odd", "held", "record",
+    "running", "rollout", "numbers", "cells", "streams", "own", "own_numbers", "own_cells", "stride", "robot",
+    "pair", "other", "theirs",
+    "abs", "float", "int", "range",
+)  # fmt: skip
+"""What a rollout itself uses: arguments, variables, built-in functions."""
+
+CALLED = {
+    name for module in (functions, memory, streams) for name, value in vars(module).items() if callable(value)
+}
+TAKEN = CALLED.union(OWN, keyword.kwlist)
+
+
+@dataclass(slots=True)
+class Namer:
+    """Gives out names that are not taken yet."""
+
+    taken: set[str] = field(default_factory=lambda: set(TAKEN))
+
+    def __call__(self, wanted: str) -> str:
+        """The name wanted, with underscores behind it if something else has it."""
+        while wanted in self.taken:
+            wanted += "_"
+        self.taken.add(wanted)
+        return wanted
+
+    def numbered(self, stem: str) -> str:
+        """The stem with the first number that is free."""
+        number = 1
+        while f"{stem}_{number}" in self.taken:
+            number += 1
+        return self(f"{stem}_{number}")
+
+
+def slot_text(slot: Slot, robots: int) -> str:
+    """What a slot is called: `height_0` with several robots, `sonar_3` for an element."""
+    name, robot, place = slot
+    parts = [robot] if robot is not None and robots > 1 else []
+    return "_".join([name, *(str(part) for part in (*parts, *place))])

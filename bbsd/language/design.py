@@ -1,0 +1,127 @@
+"""The `design` block: how the holes are filled. The defaults are the paper's Table 1 for object lifting."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from bbsd.language.base import Part
+from bbsd.language.written import Expression, ExpressionText, Whole, expression, shape
+
+HARD_MUTATION = "0.01 / log2(generation + 1) if generation <= 0.8 * generations else 0"
+
+
+def _default(text: str) -> Expression:
+    return expression(text)
+
+
+class Coevolution(Part):
+    """Cooperative co-evolution of the behaviors (V.B)."""
+
+    generations: Whole = Field(50, ge=1, le=100_000, description="Generations of a run.")
+    population: Whole = Field(20, ge=1, le=100_000, description="Individuals in each behavior's pool.")
+    agents: Whole = Field(200, ge=1, le=1_000_000, description="Agents put together in each generation.")
+    pairing: Literal["balanced", "random", "proportional"] = Field(
+        "balanced",
+        description="Which individuals meet: all equally often, at random, or by fitness, "
+        "where a child's is its parents' mean.",
+    )
+    tournament: Whole = Field(3, ge=1, le=1000, description="Individuals that compete to be a parent.")
+    elites: Whole = Field(1, ge=0, description="Best individuals copied unchanged into the next generation.")
+    crossover: float = Field(
+        0.5, ge=0, le=1, description="Probability p_c that a cell comes from the first parent (19)."
+    )
+    children: Literal[1, 2] = Field(
+        1,
+        description="Children of a pair of parents: by the mask X of (19), and a second one by its complement.",
+    )
+    hard_mutation: ExpressionText = Field(
+        _default(HARD_MUTATION),
+        description="Probability that a child's table is replaced by a random one; "
+        "may use generation, generations.",
+    )
+    soft_mutation: ExpressionText = Field(
+        _default("2 * hard_mutation"),
+        description="Probability that a cell is drawn anew; may use generation, generations, hard_mutation.",
+    )
+
+
+class Learning(Part):
+    """Learning of the structure during a lifetime (V.A)."""
+
+    episodes: Whole = Field(
+        25, ge=1, le=100_000, description="Episodes of a lifetime in which a structure is learned."
+    )
+    last: Whole = Field(
+        5,
+        ge=1,
+        le=1_000_000,
+        description="K of (14): fitness is the mean return of so many last episodes; "
+        "of the whole lifetime where the structure is given.",
+    )
+    rate: ExpressionText = Field(
+        _default("0.1 * 0.99 ** episode"), description="Learning rate of (13); may use episode, episodes."
+    )
+    estimate: Literal["joint", "counters"] = Field(
+        "joint",
+        description="What is learned of a behavior in a layer: Ṽ by (13), or V by (11) and counted probabilities.",
+    )
+    exploration: ExpressionText = Field(
+        _default("0"),
+        description="Probability of a random structure in an episode, never in the last ones; "
+        "may use episode, episodes.",
+    )
+    search: Literal["sampled", "exact"] = Field(
+        "sampled",
+        description="How a structure is chosen before an episode: among random ones, or exactly.",
+    )
+    candidates: Whole = Field(
+        20, ge=1, le=100_000, description="Random structures that compete with the present one."
+    )
+
+
+class CultureSettings(Part):
+    """The culture of memes (V.C)."""
+
+    size: Whole = Field(5, ge=1, le=10_000, description="Memes that the culture holds.")
+    rate: float = Field(0.3, ge=0, le=1, description="Forgetting factor of a meme's fitness (22).")
+    scaled: float = Field(
+        0.9,
+        ge=0,
+        le=1,
+        description="Probability that a meme is drawn by scaled roulette instead of at random.",
+    )
+
+
+class Answer(Part):
+    """The final race between candidates."""
+
+    candidates: Whole = Field(1000, ge=1, le=100_000, description="Champions that enter the final race.")
+    episodes: Whole = Field(
+        20_000, ge=100, le=10_000_000, description="Fresh episodes at most for each of them."
+    )
+    judged: Whole = Field(
+        5_000, ge=100, le=10_000_000, description="Further episodes on which the winner is judged."
+    )
+
+
+class Design(Part):
+    """How the holes of a spec are filled."""
+
+    layers: Whole | None = Field(
+        None,
+        ge=1,
+        le=64,
+        description="Open layers where no structure is given; by default one for each behavior.",
+    )
+    sharing: Literal["uniform", "value"] = Field(
+        "uniform", description="How agents' fitness is shared: (15) or (17)."
+    )
+    coevolution: Coevolution = Field(Coevolution(), description="Cooperative co-evolution of the behaviors.")
+    learning: Learning = Field(Learning(), description="Learning of the structure.")
+    culture: Annotated[
+        Annotated[CultureSettings, Tag("<mapping>")] | Annotated[Literal["none"], Tag("<other>")],
+        Discriminator(shape),
+    ] = Field(CultureSettings(), description="The culture of memes, or none.")
+    answer: Answer = Field(Answer(), description="The choice of the final answer.")

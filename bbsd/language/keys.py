@@ -1,0 +1,64 @@
+"""Which keys a spec may have where."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, get_args
+
+from bbsd.language.base import Part
+from bbsd.language.models import Behavior, Otherwise, Spec, When
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from pydantic.fields import FieldInfo
+
+    from bbsd.expression.scope import Path
+
+
+def fields_at(path: Path) -> Mapping[str, FieldInfo] | None:
+    """The keys that may stand below a path; None where they are not the language's own."""
+    match path:
+        case ("behaviors", _):
+            return Behavior.model_fields
+        case ("behaviors", _, "rules", int()):
+            return {**When.model_fields, **Otherwise.model_fields}
+    part: type[Part] | None = Spec
+    for segment in path:
+        fields = part.model_fields if part else {}
+        part = next(_parts(fields[str(segment)].annotation), None) if segment in fields else None
+    return part.model_fields if part else None
+
+
+def field_at(path: Path) -> FieldInfo | None:
+    """The key that a path ends with, if it is one of the language's own."""
+    return (fields_at(path[:-1]) or {}).get(str(path[-1])) if path else None
+
+
+def blocks_with(key: str) -> list[str]:
+    """The blocks that have a key of this name, as paths; a spec itself is the top level."""
+    blocks: list[tuple[str, type[Part]]] = [
+        ("the top level", Spec),
+        ("a behavior", Behavior),
+        ("a rule", When),
+    ]
+    found = []
+    while blocks:
+        name, part = blocks.pop(0)
+        found += [name] if key in part.model_fields else []
+        above = "" if part is Spec else f"{name}."
+        blocks += [
+            (f"{above}{below}", inner)
+            for below, field in part.model_fields.items()
+            for inner in _parts(field.annotation)
+        ]
+    return found
+
+
+def _parts(annotation: object) -> Iterator[type[Part]]:
+    """The parts of a spec that a key may hold, but not those in a mapping or a list of its own."""
+    if isinstance(annotation, type):
+        if issubclass(annotation, Part):
+            yield annotation
+    elif not isinstance(annotation, type(dict[str, str])):
+        for argument in get_args(annotation):
+            yield from _parts(argument)

@@ -1,0 +1,189 @@
+"""The values of constants: numbers, tables, draws; some change with the generation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import TYPE_CHECKING, Any, cast
+
+from bbsd.expression import elaboration
+from bbsd.expression.graph import (
+    LEAVES,
+    Graph,
+    Kind,
+    Level,
+    Node,
+    evaluate,
+    needed,
+    rebuilt,
+    value_of,
+    whole_nodes,
+)
+from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
+from bbsd.kernel import streams
+from bbsd.kernel.functions import clamp_index
+from bbsd.language.meaning.order import among_themselves, in_order, names_in
+from bbsd.language.written import expressions_in
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Mapping
+
+    from bbsd.language.written import Expression, Nested
+
+GENERATION = "generation"
+
+
+@dataclass(frozen=True, slots=True)
+class Constants:
+    """Constants of one command: where each scalar stands in the vector that the kernel gets, and its value.
+
+    `values` are nested tuples of nodes: literals, or expressions of the generation.
+    """
+
+    values: Mapping[str, Value]
+    scalars: tuple[Node, ...]
+    leaves: Mapping[str, Value]
+    """The same shapes, as the leaves by which a kernel reads them."""
+    wholes: tuple[bool, ...]
+    """For each scalar, whether it is certainly a whole number."""
+
+    def vector(self, generation: int) -> list[float]:
+        """All scalars in order, as they are in a generation (counted from 1)."""
+        return [
+            float(value) for value in evaluate(self.scalars, lambda node, _: _generation(node, generation))
+        ]
+
+    def plain(self, name: str) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
+        """A constant's value as plain data; None where it depends on the generation."""
+        return _plain(self.values[name])
+
+    def static(self, node: Node) -> float | None:
+        """The value of a node of constants, where it is the same in every generation."""
+        if any(found.operation in LEAVES and not self._is_static(found) for found in needed([node])):
+            return None
+        return float(evaluate([node], self._at_leaf)[0])
+
+    def _is_static(self, leaf: Node) -> bool:
+        if leaf.operation == "gather":
+            return all(self.scalars[place].literal for place in _places(leaf.data))
+        return leaf.operation == "constant" and self.scalars[cast("int", leaf.data)].literal
+
+    def _at_leaf(self, leaf: Node, operands: list[float]) -> float:
+        if leaf.operation == "constant":
+            return cast("float", value_of(self.scalars[cast("int", leaf.data)]))
+        base, strides, lengths = cast("Block", leaf.data)
+        clamped = [clamp_index(index, length - 1) for index, length in zip(operands, lengths, strict=True)]
+        place = base + sum(stride * index for stride, index in zip(strides, clamped, strict=True))
+        return cast("float", value_of(self.scalars[place]))
+
+    def whole(self, data: Hashable) -> bool:
+        """Whether a constant, or every constant that a gather may read, is certainly whole."""
+        places = [data] if isinstance(data, int) else _places(data)
+        return all(self.wholes[place] for place in places)
+
+
+Block = tuple[int, tuple[int, ...], tuple[int, ...]]
+"""What a gather may read: the first place, and for each index a stride and a length."""
+
+
+def _places(data: Hashable) -> list[int]:
+    base, strides, lengths = cast("Block", data)
+    places = [base]
+    for stride, length in zip(strides, lengths, strict=True):
+        places = [place + stride * step for place in places for step in range(length)]
+    return places
+
+
+def _generation(node: Node, generation: int) -> float:
+    return float(generation) if node.data == GENERATION else nan
+
+
+def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value_of(value) if value.literal else None
+
+
+def read_constants(
+    written: Mapping[str, Nested],
+    seed_key: int,
+    graph: Graph,
+    findings: Findings,
+    unusable: frozenset[str],
+) -> Constants:
+    """Evaluate the constants; draws come from the stream of (seed, the constant's name)."""
+    bindings: dict[str, Binding] = {
+        GENERATION: Shared(graph.leaf("slot", GENERATION, Kind.NUMBER, Level.CALL)),
+        **dict.fromkeys(unusable, Unusable()),
+    }
+    base = Scope(graph, bindings, findings)
+    constants_key = streams.fold(seed_key, streams.name_word("constants"))
+    values: dict[str, Value] = {}
+    for name in _in_order(written, unusable):
+        path: Path = ("constants", name)
+        key = streams.fold(constants_key, streams.name_word(name))
+        values[name] = _settled(_read(written[name], base, path), key, base.at(path), written[name])
+        bindings[name] = Shared(values[name])
+    ordered = {name: values[name] for name in written if name in values}
+    scalars: list[Node] = []
+    leaves = {name: _leaf(value, scalars, graph) for name, value in ordered.items()}
+    whole = whole_nodes(scalars, {GENERATION: True}, lambda _: False)
+    return Constants(ordered, tuple(scalars), leaves, tuple(whole[node.number] for node in scalars))
+
+
+def _in_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
+    used = {name: names_in(expressions_in(value)) for name, value in written.items() if name not in unusable}
+    return in_order(among_themselves(used))
+
+
+def _read(written: Nested, scope: Scope, path: Path) -> Value:
+    if isinstance(written, tuple):
+        return tuple(_read(item, scope, (*path, place)) for place, item in enumerate(written))
+    found = elaboration.value(written.tree, scope.at(path, 0, draws=True))
+    return _numbers_only(found, scope.at(path), written)
+
+
+def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
+    if isinstance(value, tuple):
+        return tuple(_numbers_only(item, scope, written) for item in value)
+    if value.kind is Kind.TRUTH:
+        message = "a constant is a number or a list of numbers, not a truth"
+        return scope.mistake("BB055", message, written.tree.span)
+    return value
+
+
+def _settled(value: Value, key: int, scope: Scope, written: Nested) -> Value:
+    """The value with its draws drawn from the stream of `key`; what depends on the generation stays open."""
+    if isinstance(value, tuple):
+        parts = written if isinstance(written, tuple) else (written,) * len(value)
+        return tuple(_settled(item, key, scope, part) for item, part in zip(value, parts, strict=True))
+    try:
+        return rebuilt(value, scope.graph, lambda node, operands: _drawn(node, operands, key, scope.graph))
+    except _DrawsWithGenerationError:
+        span = expressions_in(written)[0].tree.span
+        return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)
+
+
+class _DrawsWithGenerationError(Exception):
+    pass
+
+
+def _drawn(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
+    if node.operation != "draw":
+        return node
+    if not all(operand.literal for operand in operands):
+        raise _DrawsWithGenerationError
+    distribution, word = cast("tuple[str, int]", node.data)
+    drawn = streams.DISTRIBUTIONS[distribution](key, word, *(value_of(operand) for operand in operands))
+    return graph.truth(value=bool(drawn)) if node.kind is Kind.TRUTH else graph.number(drawn)
+
+
+def _leaf(value: Value, scalars: list[Node], graph: Graph) -> Value:
+    if isinstance(value, tuple):
+        return tuple(_leaf(item, scalars, graph) for item in value)
+    scalars.append(value)
+    return (
+        value
+        if value.kind is Kind.UNKNOWN
+        else graph.leaf("constant", len(scalars) - 1, Kind.NUMBER, Level.CALL)
+    )

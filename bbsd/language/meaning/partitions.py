@@ -1,0 +1,145 @@
+"""Partitions: the cells into which a behavior's input is cut (P_i of (1)), as labels and as a cell index."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from bbsd.expression import elaboration
+from bbsd.expression.graph import Kind, Node, value_of
+from bbsd.expression.mistakes import KEY
+from bbsd.expression.text import render
+from bbsd.expression.tree import Call, Name, Span
+from bbsd.language.meaning.coverage import covers_everything
+from bbsd.language.meaning.labels import Labels, Numbers
+from bbsd.language.models import OTHERWISE, PartitionText
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Path, Scope
+    from bbsd.language.written import Expression
+
+TRUTH_CELLS = ("false", "true")
+MAX_CELLS = 1_000_000
+MAX_CELLS_IN_ALL = 10_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Partition:
+    """Labels of the cells in order, and the node of the index of the cell that holds."""
+
+    cells: Labels
+    index: Node
+
+
+def is_partition(written: PartitionText) -> bool:
+    """Whether a sensor is written as a partition that is no plain expression."""
+    return isinstance(written, dict) or (
+        isinstance(written.tree, Call) and written.tree.function in ("cut", "values")
+    )
+
+
+def partition(written: PartitionText, scope: Scope, path: Path, robot: int | None) -> Partition | None:
+    """The cells of a partition and where the robot is in it; None after a mistake."""
+    here = scope.at(path, robot, draws=scope.draws is not None)
+    if isinstance(written, dict):
+        return _named(written, scope, path, robot)
+    tree = written.tree
+    if isinstance(tree, Call) and tree.function == "cut":
+        return _cut(tree, here)
+    if isinstance(tree, Call) and tree.function == "values":
+        return _values(tree, here)
+    return _truth(written, here)
+
+
+def _truth(written: Expression, scope: Scope) -> Partition | None:
+    found = elaboration.value(written.tree, scope)
+    if isinstance(found, tuple) or found.kind is Kind.NUMBER:
+        what = "a list" if isinstance(found, tuple) else "a number"
+        advice = (
+            f"cut it: cut({written.text}, ...) or values({written.text}, first, last), or write a condition"
+        )
+        scope.mistake("BB030", f"an input needs a partition, and this is {what}", written.tree.span, advice)
+        return None
+    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", found))
+
+
+def _cut(tree: Call, scope: Scope) -> Partition | None:
+    if len(tree.arguments) < 2:
+        scope.mistake(
+            "BB031", "cut takes a number and the bounds between its cells: cut(tilt, 2, 5)", tree.span
+        )
+        return None
+    of, *bounds = tree.arguments
+    number = elaboration.number(of, scope)
+    nodes = [elaboration.number(bound, scope) for bound in bounds]
+    if any(node.kind is Kind.UNKNOWN for node in (number, *nodes)):
+        return None
+    known = [value_of(node) if node.literal else scope.static(node) for node in nodes]
+    for (low, high), bound in zip(pairwise(known), bounds[1:], strict=True):
+        if low is not None and high is not None and not low < high:
+            scope.mistake("BB031", f"bounds must grow, and {high:g} does not exceed {low:g}", bound.span)
+            return None
+    texts = [render(bound) for bound in bounds]
+    labels = (
+        f"below {texts[0]}",
+        *(f"{low} to {high}" for low, high in pairwise(texts)),
+        f"from {texts[-1]}",
+    )
+    graph = scope.graph
+    passed = [graph.apply("cell_of", graph.apply(">=", number, node)) for node in nodes]
+    return Partition(labels, graph.fold("+", passed))
+
+
+def _values(tree: Call, scope: Scope) -> Partition | None:
+    if len(tree.arguments) != 3:
+        scope.mistake(
+            "BB031",
+            "values takes a whole number, the first and the last value: values(speed, 0, 5)",
+            tree.span,
+        )
+        return None
+    of, first_tree, last_tree = tree.arguments
+    number = elaboration.whole(of, scope, "what values(...) divides")
+    first = elaboration.static_whole(first_tree, scope, "the first value")
+    last = elaboration.static_whole(last_tree, scope, "the last value")
+    if number.kind is Kind.UNKNOWN or first is None or last is None:
+        return None
+    if not 1 <= last - first < MAX_CELLS:
+        scope.mistake(
+            "BB031",
+            f"from {first} to {last} are not two values or more",
+            Span(tree.span.start, tree.span.length),
+        )
+        return None
+    graph = scope.graph
+    offset = graph.apply("-", number, graph.number(first)) if first else number
+    return Partition(Numbers(first, last), graph.apply("clamp_index", offset, data=last - first))
+
+
+def _named(written: dict[str, Expression], scope: Scope, path: Path, robot: int | None) -> Partition | None:
+    labels = tuple(written)
+    trees = list(written.values())
+    final = isinstance(trees[-1].tree, Name) and trees[-1].tree.name == OTHERWISE if trees else False
+    conditions = trees[:-1] if final else trees
+    nodes = [
+        elaboration.truth(condition.tree, scope.at((*path, label), robot, draws=scope.draws is not None))
+        for label, condition in zip(labels, conditions, strict=False)
+    ]
+    whole = scope.at(path, robot)
+    if len(labels) < 2:
+        whole.mistake("BB032", "a partition needs two cells or more", KEY)
+        return None
+    if any(node.kind is Kind.UNKNOWN for node in nodes):
+        return None
+    if not final and not covers_everything(nodes, scope.graph):
+        advice = "write the last cell's condition as otherwise"
+        whole.at((*path, labels[-1])).mistake(
+            "BB032", "these cells do not provably cover everything", trees[-1].tree.span, advice
+        )
+        return None
+    graph = scope.graph
+    index = graph.cell(len(labels) - 1)
+    for cell in reversed(range(len(labels) - 1)):
+        index = graph.apply("select", nodes[cell], graph.cell(cell), index)
+    return Partition(labels, index)

@@ -1,0 +1,171 @@
+"""Rules to table cells: what a behavior's rules give, cell by cell, and what they leave open."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import TYPE_CHECKING
+
+from bbsd.errors import did_you_mean
+from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.language.meaning.labels import Labels
+from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Findings, Path
+
+OPEN_CELL = 255
+NO_ACTION = 0
+MAX_LOOKED_AT = 30_000_000
+OTHER_TRUTHS = {"yes": "true", "on": "true", "1": "true", "no": "false", "off": "false", "0": "false"}
+
+Inputs = Mapping[str, Labels]
+"""Each input's cells, in the order of the table's dimensions."""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table's cells in row-major order of the inputs: 0: No Action, k: the k-th action, 255: open."""
+
+    given: bytes
+
+    @property
+    def is_open(self) -> bool:
+        """Whether any cell is left to be designed."""
+        return OPEN_CELL in self.given
+
+
+def table(
+    rules: Sequence[Rule] | None,
+    inputs: Inputs,
+    actions: Sequence[str],
+    path: Path,
+    findings: Findings,
+    unusable: Collection[str] = (),
+) -> Table:
+    """The cells that rules decide, the first match first; mistakes are told and the rule is passed over.
+
+    Nothing is said about the `unusable` names, whose own mistakes were told before.
+    """
+    decided = [
+        _decision(rule, actions, (*path, place), findings, unusable) for place, rule in enumerate(rules or ())
+    ]
+    sizes = [len(cells) for cells in inputs.values()]
+    given, undecided, looked_at = bytearray([OPEN_CELL]) * prod(sizes), bytearray([1]) * prod(sizes), 0
+    for place, (rule, decision) in enumerate(zip(rules or (), decided, strict=True)):
+        matched = _matched(rule, inputs, (*path, place), findings, unusable)
+        if decision is None or matched is None:
+            continue
+        looked_at += prod(len(cells) for cells in matched)
+        if looked_at > MAX_LOOKED_AT:
+            findings.tell(
+                path, "BB039", f"these rules match more than {MAX_LOOKED_AT} cells, one by one", KEY
+            )
+            break
+        fresh = [cell for cell in _places(matched, sizes) if undecided[cell]]
+        if not fresh:
+            message = "this rule never applies: the rules before it decide all its cells"
+            findings.tell((*path, place), "BB037", message)
+        for cell in fresh:
+            given[cell], undecided[cell] = decision, 0
+    return Table(bytes(given))
+
+
+def _places(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> list[int]:
+    """Where the cells of a block stand in row-major order."""
+    places = [0]
+    for cells, size in zip(matched, sizes, strict=True):
+        places = [place * size + cell for place in places for cell in cells]
+    return places
+
+
+def _decision(
+    rule: Rule, actions: Sequence[str], path: Path, findings: Findings, unusable: Collection[str]
+) -> int | None:
+    """What a cell holds where the rule decides; None where that is no action."""
+    key, word = ("otherwise", rule.otherwise) if isinstance(rule, Otherwise) else ("do", rule.do)
+    if word in (NO_ACTION_TEXT, OPEN):
+        return NO_ACTION if word == NO_ACTION_TEXT else OPEN_CELL
+    if word in actions:
+        return actions.index(word) + 1
+    if word not in unusable and not any(action in unusable for action in actions):
+        hint = did_you_mean(word, [*actions, NO_ACTION_TEXT, OPEN])
+        message, advice = (
+            f'"{word}" is not an action of this behavior{hint}',
+            f"its actions: {', '.join(actions)}" if actions else "",
+        )
+        findings.tell((*path, key), "BB036", message, WHOLE, advice)
+    return None
+
+
+def _matched(
+    rule: Rule, inputs: Inputs, path: Path, findings: Findings, unusable: Collection[str]
+) -> list[Sequence[int]] | None:
+    """For each input, the cells that the rule matches; None after a mistake."""
+    when = {} if isinstance(rule, Otherwise) else rule.when
+    for name in when:
+        if name not in inputs and name not in unusable:
+            hint = did_you_mean(name, inputs) or f"; {_inputs_named(inputs)}"
+            message = f'"{name}" is not an input of this behavior{hint}'
+            findings.tell((*path, "when", name), "BB034", message, KEY)
+    matched = [_cells_matched(name, cells, when, path, findings) for name, cells in inputs.items()]
+    understood = [cells for cells in matched if cells is not None]
+    return understood if when.keys() <= inputs.keys() and len(understood) == len(matched) else None
+
+
+def _inputs_named(inputs: Inputs) -> str:
+    return f"its inputs: {', '.join(inputs)}" if inputs else "it has none"
+
+
+def _cells_matched(
+    name: str, cells: Labels, when: Mapping[str, list[str]], path: Path, findings: Findings
+) -> Sequence[int] | None:
+    if name not in when:
+        return range(len(cells))
+    named = [_cells(word, cells) for word in when[name]]
+    for place, (word, found) in enumerate(zip(when[name], named, strict=True)):
+        if found is None:
+            message = f'"{word}" is not a cell of {name}{_cell_meant(word, cells)}'
+            findings.tell((*path, "when", name, place), "BB035", message, WHOLE, _cells_advice(cells))
+    if None in named:
+        return None
+    return sorted({cell for found in named for cell in found or ()})
+
+
+def _cell_meant(word: str, cells: Labels) -> str:
+    truth = OTHER_TRUTHS.get(word.lower(), "")
+    return f'; did you mean "{truth}"?' if truth in cells else did_you_mean(word, cells)
+
+
+def _cells_advice(cells: Labels) -> str:
+    shown = ", ".join(cells[:12])
+    return f"its cells: {shown}{', ...' if len(cells) > 12 else ''}"
+
+
+RANGE = re.compile(r"below (?P<below>.+)|from (?P<from>.+)|(?P<low>.+?) to (?P<high>.+)")
+
+
+def _cells(word: str, cells: Labels) -> range | None:
+    """The cells a word names: one, or a range of the cells of a cut."""
+    if word in cells:
+        return range(cells.index(word), cells.index(word) + 1)
+    bounds = _bounds(cells)
+    match = RANGE.fullmatch(word)
+    if bounds is None or match is None:
+        return None
+    low = match["from"] or match["low"]
+    high = match["below"] or match["high"]
+    if not {low, high} <= {None, *bounds}:
+        return None
+    first = bounds.index(low) + 1 if low else 0
+    last = bounds.index(high) + 1 if high else len(cells)
+    return range(first, last) if first < last else None
+
+
+def _bounds(cells: Labels) -> list[str] | None:
+    """The bounds of a cut, read off its cells."""
+    if not (len(cells) >= 2 and cells[0].startswith("below ") and cells[-1].startswith("from ")):
+        return None
+    return [cells[0].removeprefix("below "), *(cell.split(" to ", 1)[1] for cell in cells[1:-1])]

@@ -1,0 +1,37 @@
+"""How large a task of design is: what is open, and how many designs there are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import lgamma, log, log10
+from typing import TYPE_CHECKING
+
+from bbsd.language.meaning.rules import OPEN_CELL
+from bbsd.language.meaning.structure import OPEN_LAYER
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.meaning.structure import Structure
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """Open cells and layers, and the number of designs as a logarithm to base 10."""
+
+    open_cells: int
+    open_layers: int
+    decades: float
+
+
+def size_of(modules: Sequence[Module], structure: Structure) -> Size:
+    """The size of a task; what is open in a behavior that a given structure leaves out does not count."""
+    evolved = [module for index, module in enumerate(modules) if structure.may_hold(index)]
+    open_cells = [module.table.given.count(OPEN_CELL) for module in evolved]
+    choices = [
+        cells * log10(len(module.actions) + 1) for cells, module in zip(open_cells, evolved, strict=True)
+    ]
+    n, k = len(structure.candidates), structure.layers.count(OPEN_LAYER)
+    orders = (lgamma(n + 1) - lgamma(n - k + 1)) / log(10)
+    return Size(sum(open_cells), k, sum(choices) + orders)

@@ -1,0 +1,127 @@
+"""Values given on the command line, PATH=VALUE, set in the plain data of a spec before it is validated."""
+
+from __future__ import annotations
+
+import re
+from copy import deepcopy
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from bbsd.errors import Diagnosis, Place, SpecError, did_you_mean
+from bbsd.language.keys import fields_at
+from bbsd.language.validation import child, has, named
+from bbsd.text import Source, read
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bbsd.expression.scope import Path
+    from bbsd.text import Data, Document
+
+FILE = "--set"
+SEGMENT = re.compile(r"\.?(?P<key>[^.\[\]=]+)|\[(?P<index>\d{1,6})\]")
+ARGUMENT = re.compile(r"(?P<path>[^.\[\]=]+(?:\.[^.\[\]=]+|\[\d{1,6}\])*)=(?P<value>.*)", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Override:
+    """One argument as read: where it sets what, and the document in which its value keeps its place."""
+
+    path: Path
+    value: Data
+    document: Document
+    columns: tuple[int, ...]
+    """Where each segment of the path begins, counted from 1."""
+    line: int
+
+    def place(self, below: Path, offset: int | None, *, on_key: bool, length: int) -> Place:
+        """The place of what stands in the value, as a document's `place`."""
+        (key,) = self.document.data
+        return self.document.place((key, *below), offset, on_key, length)
+
+
+def overrides_source(arguments: Sequence[str]) -> Source:
+    """The arguments as a text to show mistakes in: each begins a line."""
+    return Source(FILE, "\n".join(arguments))
+
+
+def read_overrides(arguments: Sequence[str]) -> tuple[Override, ...]:
+    """Read arguments; raises SpecError with all that cannot be read."""
+    lines = accumulate((argument.count("\n") + 1 for argument in arguments), initial=1)
+    found = [_read(argument, line) for argument, line in zip(arguments, lines, strict=False)]
+    diagnoses = [each for item in found for each in (item if isinstance(item, tuple) else ())]
+    if diagnoses:
+        raise SpecError(diagnoses, overrides_source(arguments))
+    return tuple(item for item in found if isinstance(item, Override))
+
+
+def _read(argument: str, line: int) -> Override | tuple[Diagnosis, ...]:
+    match = ARGUMENT.fullmatch(argument)
+    if match is None:
+        advice = "write PATH=VALUE, such as design.coevolution.generations=10 or structure[0]=open"
+        return (
+            Diagnosis("BB028", "this is no PATH=VALUE", Place(FILE, line, 1, max(1, len(argument))), advice),
+        )
+    # A key as long as the path, less the blank after its colon, keeps every column of the value.
+    key = "_" * (len(match["path"]) - 1) or "_"
+    document = read(Source(FILE, "\n" * (line - 1) + f"{key}: {match['value']}"))
+    if document.diagnoses:
+        return document.diagnoses
+    segments = list(SEGMENT.finditer(match["path"]))
+    path = tuple(int(each["index"]) if each["index"] else each["key"] for each in segments)
+    columns = tuple(each.start("index" if each["index"] else "key") + 1 for each in segments)
+    return Override(path, document.data[key], document, columns, line)
+
+
+def with_overrides(data: Data, overrides: Sequence[Override], arguments: Sequence[str]) -> Data:
+    """The data with values set, in order; raises SpecError with all paths that lead nowhere."""
+    data, diagnoses = deepcopy(data), []
+    for override in overrides:
+        diagnosis = _set(data, override)
+        if diagnosis:
+            diagnoses.append(diagnosis)
+    if diagnoses:
+        raise SpecError(diagnoses, overrides_source(arguments))
+    return data
+
+
+def _set(data: Data, override: Override) -> Diagnosis | None:
+    """Set one value, making the mappings on its way that the language knows; null deletes."""
+    if override.path[0] == "extends":  # what it says was read already
+        place = Place(FILE, override.line, override.columns[0], len("extends"))
+        return Diagnosis("BB028", "extends cannot be set", place, "write it in a spec of its own")
+    *way, last = override.path
+    for depth, segment in enumerate(way):
+        if not _is_known(data, override.path[: depth + 1]):
+            return _nothing_there(data, override, depth)
+        if isinstance(data, dict) and data.get(str(segment)) is None:
+            data[str(segment)] = {}
+        data = child(data, segment)
+    if not _is_known(data, override.path):
+        return _nothing_there(data, override, len(way))
+    if isinstance(data, list):
+        data[int(last) : int(last) + 1] = [] if override.value is None else [deepcopy(override.value)]
+    elif isinstance(data, dict) and override.value is None:
+        data.pop(str(last), None)
+    elif isinstance(data, dict):
+        data[str(last)] = deepcopy(override.value)
+    return None
+
+
+def _is_known(data: Data, path: Path) -> bool:
+    """Whether the path's last segment is in the data, or a key of the language that could be."""
+    return has(data, path[-1]) or (isinstance(data, dict) and path[-1] in (fields_at(path[:-1]) or {}))
+
+
+def _nothing_there(data: Data, override: Override, depth: int) -> Diagnosis:
+    segment, parent = override.path[depth], override.path[:depth]
+    place = Place(FILE, override.line, override.columns[depth], len(str(segment)))
+    where = f" in {named(parent)}" if parent else ""
+    if isinstance(segment, int):
+        count = len(data) if isinstance(data, list) else 0
+        return Diagnosis(
+            "BB028", f"there is no item [{segment}]{where}", place, f"it has {count}, counted from 0"
+        )
+    known = [*(data if isinstance(data, dict) else ()), *(fields_at(parent) or ())]
+    return Diagnosis("BB028", f'there is no "{segment}"{where}{did_you_mean(segment, known)}', place)

@@ -1,0 +1,230 @@
+"""Plain data to a spec; what is wrong with its form, in a designer's words."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Literal, cast, get_args, get_origin
+
+from annotated_types import Ge, Le
+from pydantic import ValidationError
+
+from bbsd.errors import did_you_mean
+from bbsd.expression.mistakes import KEY, WHOLE, Mistake
+from bbsd.expression.vocabulary import RESERVED
+from bbsd.language.keys import blocks_with, field_at, fields_at
+from bbsd.language.models import Spec
+from bbsd.language.written import kind_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pydantic.fields import FieldInfo
+    from pydantic_core import ErrorDetails
+
+    from bbsd.expression.scope import Path
+    from bbsd.text import Data
+
+MAX_ERRORS = 1000
+MAX_SHOWN = 40
+
+Told = tuple["Path", Mistake]
+"""A mistake and where in the spec it is."""
+
+
+def validate(data: Data) -> tuple[Spec | None, list[ErrorDetails]]:
+    """The spec that plain data are, or all that pydantic has to say against it."""
+    try:
+        return Spec.model_validate(data), []
+    except ValidationError as error:
+        return None, error.errors(include_url=False)[:MAX_ERRORS]
+
+
+def form_mistakes(errors: Sequence[ErrorDetails], data: Data) -> list[Told]:
+    """The mistakes that errors stand for, each wrong thing once."""
+    guessed = {_guess(error, errors) for error in errors if error["type"] == "extra_forbidden"}
+    unreadable = frozenset().union(*map(names_lost, errors)) - RESERVED
+    return [
+        (path_of(error, data), _mistake(error, data))
+        for error in errors
+        if not (error["type"] == "missing" and error["loc"] in guessed) and not _uses(error, unreadable)
+    ]
+
+
+def path_of(error: ErrorDetails, data: Data) -> Path:
+    """Where the value, the key, or the mapping without the key stands that an error is about."""
+    location = error["loc"][:-1] if error["type"] == "missing" else error["loc"]
+    return existing(location, data)
+
+
+def existing(location: Path, data: Data) -> Path:
+    """The location without the segments that lead nowhere: tags of unions, items of what is no list."""
+    path: list[str | int] = []
+    for segment in location:
+        if has(data, segment):
+            data = child(data, segment)
+            path.append(segment)
+    return tuple(path)
+
+
+def has(data: Data, segment: str | int) -> bool:
+    """Whether there is a value under a key of a mapping, or at an index of a list."""
+    if isinstance(segment, int):
+        return isinstance(data, list) and 0 <= segment < len(data)
+    return isinstance(data, dict) and segment in data
+
+
+def child(data: Data, segment: str | int) -> Data:
+    """The value under a key of a mapping, or at an index of a list; None if there is none."""
+    if isinstance(data, dict):
+        return data.get(str(segment))
+    if isinstance(data, list) and isinstance(segment, int) and segment < len(data):
+        return data[segment]
+    return None
+
+
+def names_lost(error: ErrorDetails) -> frozenset[str]:
+    """The names that a wrong key would have made, as they may be used elsewhere."""
+    words = re.findall(r"\w+", str(error["input"])) if error["type"] == "bad_name" else ()
+    return frozenset(words) | {word.lower() for word in words}
+
+
+def _guess(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:
+    """The missing key that an unexpected one was probably meant for."""
+    *parent, key = error["loc"]
+    missing = [
+        other["loc"] for other in errors if other["type"] == "missing" and [*other["loc"][:-1]] == parent
+    ]
+    hint = did_you_mean(str(key), [str(location[-1]) for location in missing])
+    return next((location for location in missing if f'"{location[-1]}"' in hint), None)
+
+
+def _uses(error: ErrorDetails, names: frozenset[str]) -> bool:
+    """Whether an expression fails only because of a name that was told of already."""
+    words = re.findall(r"\w+", str(error["input"]))
+    return error["type"] == "expression" and not names.isdisjoint(words)
+
+
+def _mistake(error: ErrorDetails, data: Data) -> Mistake:
+    path = path_of(error, data)
+    match error["type"]:
+        case "expression":
+            return cast("Mistake", error["ctx"]["mistake"])
+        case "bad_name":
+            return Mistake("BB024", error["msg"], KEY)
+        case "extra_forbidden":
+            return _unexpected(path)
+        case "missing":
+            return _missing(path, str(error["loc"][-1]))
+        case "too_short" | "string_too_short":
+            return Mistake("BB027", f"{named(path)} is empty; it needs at least one {_item(path)}", KEY)
+        case "literal_error" if path == ("bbsd",):
+            message = f"this is a spec in version {shown(error['input'])} of the language; only 1 is known"
+            return Mistake("BB026", message)
+        case "greater_than_equal" | "less_than_equal" | "string_too_long":
+            return _not_allowed("BB023", path, error)
+        case "literal_error" if isinstance(error["input"], str):
+            return _not_allowed("BB023", path, error)
+    return _not_allowed("BB022", path, error)
+
+
+def _unexpected(path: Path) -> Mistake:
+    known, key = list(fields_at(path[:-1]) or ()), str(path[-1])
+    if blocks := blocks_with(key):
+        advice = f"it belongs into {' or '.join(blocks)}"
+        return Mistake("BB020", f'unexpected key "{key}" here', KEY, advice)
+    hint = did_you_mean(key, known)
+    advice = "" if hint else f"the keys here: {', '.join(known)}"
+    return Mistake("BB020", f'unexpected key "{key}"{hint}', KEY, advice)
+
+
+def _missing(path: Path, key: str) -> Mistake:
+    field = field_at((*path, key))
+    meaning = field.description.rstrip(".") if field and field.description else ""
+    message = f'{named(path)} needs the key "{key}": {meaning[:1].lower()}{meaning[1:]}'
+    return Mistake("BB021", message, KEY, ADVICE.get(key, ""))
+
+
+ADVICE = {"bbsd": "write bbsd: 1", "when": "a rule has when and do, or otherwise alone"}
+
+
+def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
+    needed = _needed(path, error)
+    if error["input"] is None:
+        return Mistake(code, f"{named(path)} has no value; it must be {needed}")
+    hint = advice = ""
+    if error["type"] == "literal_error":
+        hint = did_you_mean(str(error["input"]), needed.split(" or "))
+    elif error["type"] == "string_type" and isinstance(error["input"], int | float):
+        advice = "put it in quotes"
+    elif isinstance(error["input"], str) and needed.startswith("a list"):
+        advice = "a list is written in brackets: [one, another]"
+    return Mistake(code, f"{named(path)} must be {needed}, not {shown(error['input'])}{hint}", WHOLE, advice)
+
+
+NEEDED_BY_KEY = {
+    "inputs": "a list of sensors or a mapping of partitions",
+    "rules": "a list of rules",
+    "structure": "a list of behaviors",
+    "culture": "a mapping or none",
+}
+NEEDED_BY_ERROR = {
+    "not_an_expression": "an expression",
+    "not_a_decision": "an action, no action or open",
+    "not_a_cell": "the name of a cell",
+    "string_type": "text",
+    "string_too_long": "text of at most 100 characters",
+    "dict_type": "a mapping",
+    "model_type": "a mapping",
+    "list_type": "a list",
+}
+
+
+def _needed(path: Path, error: ErrorDetails) -> str:
+    field = field_at(path)
+    if field and get_origin(field.annotation) is Literal:
+        return " or ".join(map(str, get_args(field.annotation)))
+    if path[:1] == ("view",) and error["type"] == "not_an_expression":
+        return "an expression or a list of them"
+    if path and path[-1] in NEEDED_BY_KEY and error["type"] != "string_type":
+        return NEEDED_BY_KEY[str(path[-1])]
+    return NEEDED_BY_ERROR.get(error["type"]) or _number_needed(field)
+
+
+def _number_needed(field: FieldInfo | None) -> str:
+    what = "a number" if field and field.annotation is float else "a whole number"
+    bounds = field.metadata if field else []
+    low = next((bound.ge for bound in bounds if isinstance(bound, Ge)), None)
+    high = next((bound.le for bound in bounds if isinstance(bound, Le)), None)
+    return f"{what} from {low} on" if high is None else f"{what} from {low} to {_digits(high)}"
+
+
+def _digits(number: object) -> str:
+    return f"{number:,}".replace(",", " ")
+
+
+ITEMS = {"behaviors": "behavior", "reward": "term", "name": "character"}
+
+
+def _item(path: Path) -> str:
+    return ITEMS.get(str(path[-1]), "cell")
+
+
+def named(path: Path) -> str:
+    """What a message calls the value at a path."""
+    places = [str(segment + 1) for segment in path if isinstance(segment, int)]
+    keys = [segment for segment in path if isinstance(segment, str)]
+    if not keys:
+        return "a spec"
+    return keys[-1] if isinstance(path[-1], str) else f"item {'.'.join(places)} of {keys[-1]}"
+
+
+def shown(value: object) -> str:
+    """What a message says a plain value is."""
+    match value:
+        case str():
+            return f'text "{value if len(value) <= MAX_SHOWN else value[:MAX_SHOWN] + "..."}"'
+        case bool():
+            return f"the truth {str(value).lower()}"
+        case int() | float():
+            return f"{value:g}" if isinstance(value, float) else str(value)
+    return kind_of(value)

@@ -1,0 +1,85 @@
+"""Ctrl-C as a request to stop, which is answered at the next episode.
+
+An exception in the middle of anything can be lost: one that is raised while LLVM's objects are disposed of is only
+printed. So the first interrupt is recorded and answered between compiled calls; a second one is Python's own. A thread
+watches for it too, since no handler runs before a compiled call returns.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import threading
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from bbsd.stopping import stop_request_of_context
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from bbsd.stopping import StopRequest
+
+GRACE = 1.3
+"""Seconds in which a design should have stopped by itself."""
+
+
+@contextmanager
+def interrupts_request_stop(overdue: Callable[[], object] | None = None) -> Iterator[None]:
+    """Turn interrupts into a stop request while inside.
+
+    Only the main thread can; other threads leave signals as they are. So does a process that ignores interrupts: a
+    shell starts background jobs that way, and Ctrl-C is meant for another process. If the work has not stopped within
+    the grace period, `overdue` is called in another thread.
+    """
+    with stop_request_of_context() as request:
+        is_main = threading.current_thread() is threading.main_thread()
+        if is_main and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+            with _handled(request), _watched(request, overdue):
+                yield
+        else:
+            yield
+
+
+@contextmanager
+def _handled(request: StopRequest) -> Iterator[None]:
+    before = signal.getsignal(signal.SIGINT)
+
+    def handle(_number: int, _frame: object) -> None:
+        request.make()
+        signal.signal(signal.SIGINT, before)
+
+    signal.signal(signal.SIGINT, handle)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def _watched(request: StopRequest, overdue: Callable[[], object] | None) -> Iterator[None]:
+    reader, writer = socket.socketpair()
+    writer.setblocking(False)
+    over = threading.Event()
+    thread = threading.Thread(target=_watch, args=(reader, request, over, overdue), daemon=True)
+    thread.start()
+    before = signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
+    try:
+        yield
+    finally:
+        signal.set_wakeup_fd(before)
+        over.set()
+        writer.close()
+        thread.join()
+        reader.close()
+
+
+def _watch(
+    reader: socket.socket, request: StopRequest, over: threading.Event, overdue: Callable[[], object] | None
+) -> None:
+    """Make the request as soon as the system has recorded the signal, whatever the main thread is doing."""
+    while numbers := reader.recv(64):
+        if signal.SIGINT in numbers:
+            request.make()
+            if not over.wait(GRACE) and overdue is not None:
+                overdue()

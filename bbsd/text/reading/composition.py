@@ -1,0 +1,237 @@
+"""From the parser's events to a tree of nodes, within bounds that aliases cannot get around."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from yaml import MarkedYAMLError
+
+from bbsd.errors import Diagnosis
+from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
+from bbsd.text.reading.events import Event, events
+from bbsd.text.reading.keys import entries_of
+from bbsd.text.reading.syntax import explain
+from bbsd.text.reading.traps import NOTHING, Piece, comma_mistakes, empty_block_mistake, glued, join_at_commas
+from bbsd.text.schema import is_text, meaning
+from bbsd.text.source import MAX_BYTES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.text.source import Source
+
+MAX_NODES = 50_000
+MAX_DEPTH = 40
+MAX_TEXT = 10_000
+TEXT_OF_A_NODE = 1000  # characters; a longer text counts as several values
+LONG_KEYS = frozenset({"table"})  # whose texts may be as long as the file
+MAX_NUMBER = 100
+TOO_DEEP = f"this is nested more than {MAX_DEPTH} levels deep"
+UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+class _RefusedError(Exception):
+    """Reading ends here."""
+
+    def __init__(self, diagnosis: Diagnosis) -> None:
+        super().__init__(diagnosis)
+        self.diagnosis = diagnosis
+
+
+@dataclass(frozen=True, slots=True)
+class _Anchored:
+    node: Scalar | Sequence | Mapping
+    size: int  # nodes, aliases expanded
+    height: int  # levels below it, aliases expanded
+
+
+@dataclass(slots=True)
+class _Reading:
+    source: Source
+    events: Iterator[Event]
+    anchors: dict[str, _Anchored] = field(default_factory=dict)
+    mistakes: list[Diagnosis] = field(default_factory=list)
+    size: int = 0
+    deepest: int = 0
+
+    def diagnosis(self, code: str, message: str, event: Event, advice: str = "") -> Diagnosis:
+        return Diagnosis(code, message, self.source.place(event.start, event.end), advice)
+
+    def note(self, code: str, message: str, event: Event, advice: str = "") -> None:
+        self.mistakes.append(self.diagnosis(code, message, event, advice))
+
+    def count(self, event: Event, size: int, depth: int) -> None:
+        self.size += size
+        self.deepest = max(self.deepest, depth)
+        if self.size > MAX_NODES:
+            message = f"there are more than {MAX_NODES} keys and values, with aliases expanded"
+            raise _RefusedError(self.diagnosis("BB011", message, event))
+        if self.deepest > MAX_DEPTH:
+            raise _RefusedError(self.diagnosis("BB012", TOO_DEEP, event))
+
+
+def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
+    """Return the mapping that a text is, None if it is not one, and all that is wrong with it as YAML."""
+    if found := UNPRINTABLE.search(source.text):
+        message = f"the control character U+{ord(found[0]):04X} cannot stand in a spec"
+        return None, [Diagnosis("BB003", message, source.place(found.start()))]
+    reading = _Reading(source, events(source.text))
+    try:
+        return _document(reading), reading.mistakes
+    except _RefusedError as refused:
+        return None, [*reading.mistakes, refused.diagnosis]
+    except MarkedYAMLError as error:
+        end = _too_deep(source, error) or explain(source, error)
+        return None, [*(each for each in reading.mistakes if not _same_start(each, end)), end]
+
+
+def _too_deep(source: Source, error: MarkedYAMLError) -> Diagnosis | None:
+    """The parser looks ahead for keys, and from PyYAML 6.0.4 on its own bound of depth may come before ours."""
+    if "nesting depth" not in (error.problem or "") or error.problem_mark is None:
+        return None
+    return Diagnosis("BB012", TOO_DEEP, source.place(error.problem_mark.index))
+
+
+def _same_start(one: Diagnosis, other: Diagnosis) -> bool:
+    return (one.place.line, one.place.column) == (other.place.line, other.place.column)
+
+
+def _document(reading: _Reading) -> Mapping:
+    next(reading.events)  # the stream's start
+    event = next(reading.events)
+    if event.kind != "document":
+        raise _RefusedError(Diagnosis("BB014", "the file says nothing", reading.source.place(0)))
+    event = next(reading.events)
+    root = _node(reading, event, 1)
+    next(reading.events)  # the document's end
+    if (more := next(reading.events)).kind == "document":
+        reading.note("BB015", "a second document begins here", more, "keep each spec in a file of its own")
+    if isinstance(root, Mapping):
+        return root
+    raise _RefusedError(_not_a_mapping(reading, root, event))
+
+
+def _not_a_mapping(reading: _Reading, root: Node, event: Event) -> Diagnosis:
+    if isinstance(root, Scalar) and root.is_plain and (diagnosis := glued(reading.source, root.start)):
+        return diagnosis
+    what = "a list" if isinstance(root, Sequence) else "a single value"
+    return reading.diagnosis("BB014", f"a spec is a mapping of keys to values, not {what}", event)
+
+
+def _node(reading: _Reading, event: Event, depth: int, longest: int = MAX_TEXT) -> Node:
+    if event.kind == "alias":
+        return _alias(reading, event, depth, longest)
+    reading.count(event, _size(event), depth)
+    if event.tag is not None:
+        negated = event.tag.lstrip("!") if event.tag.lstrip("!").isidentifier() else "..."
+        advice = f'remove it; if an expression is meant, write "not {negated}"'
+        reading.note("BB009", f'a spec has no tags such as "{event.tag}"', event, advice)
+    if event.anchor is None:
+        return _unanchored(reading, event, depth, longest)
+    return _anchored(reading, event, event.anchor, depth, longest)
+
+
+def _unanchored(reading: _Reading, event: Event, depth: int, longest: int) -> Scalar | Sequence | Mapping:
+    match event.kind:
+        case "scalar":
+            return _scalar(reading, event, longest)
+        case "list":
+            return _sequence(reading, event, depth)
+        case _:
+            return _mapping(reading, event, depth)
+
+
+def _anchored(reading: _Reading, event: Event, anchor: str, depth: int, longest: int) -> Node:
+    size, deepest = reading.size - _size(event), reading.deepest
+    reading.anchors.pop(
+        anchor, None
+    )  # within the node its name means nothing, not an older node of that name
+    reading.deepest = depth
+    node = _unanchored(reading, event, depth, longest)
+    reading.anchors[anchor] = _Anchored(node, reading.size - size, reading.deepest - depth)
+    reading.deepest = max(deepest, reading.deepest)
+    return node
+
+
+def _size(event: Event) -> int:
+    return 1 + len(event.text) // TEXT_OF_A_NODE
+
+
+def _alias(reading: _Reading, event: Event, depth: int, longest: int) -> Node:
+    name = reading.source.text[event.start + 1 : event.end]
+    anchored = reading.anchors.get(name)
+    if anchored is None:
+        advice = "put the value in quotes, if an expression is meant"
+        reading.note("BB010", f'no value before this one is marked with "&{name}"', event, advice)
+        return Scalar(event.start, event.end, "", f"*{name}", f"*{name}")
+    reading.count(event, anchored.size, depth + anchored.height)
+    if isinstance(anchored.node, Scalar) and len(anchored.node.text) > longest:
+        return _shortened(reading, anchored.node, event, longest)
+    return Alias(event.start, event.end, anchored.node)
+
+
+def _shortened(reading: _Reading, node: Scalar, event: Event, longest: int) -> Scalar:
+    """Return a text that is repeated where it is too long."""
+    text = _cut(reading, node.text, event, longest)
+    return Scalar(event.start, event.end, "*", text, text)
+
+
+def _scalar(reading: _Reading, event: Event, longest: int) -> Scalar:
+    text = _cut(reading, event.text, event, longest)
+    data = text if event.style or event.tag else _meaning(reading, event, text)
+    scalar = Scalar(event.start, event.end, event.style, text, data)
+    if diagnosis := empty_block_mistake(reading.source, scalar):
+        reading.mistakes.append(diagnosis)
+    return scalar
+
+
+def _cut(reading: _Reading, text: str, event: Event, longest: int) -> str:
+    """Return a text, or of one that is too long only so much that aliases cannot make work of it."""
+    if len(text) > longest:
+        message = f"a text of {len(text)} characters; the longest may have {longest}"
+        reading.note("BB013", message, event)
+    return text[:longest]
+
+
+def _meaning(reading: _Reading, event: Event, text: str) -> str | int | float | bool | None:
+    if len(text) <= MAX_NUMBER:
+        return meaning(text)
+    if not is_text(text):
+        message = f"a number of {len(text)} characters; the longest may have {MAX_NUMBER}"
+        reading.note("BB013", message, event, "put it in quotes, if a text is meant")
+    return text
+
+
+def _sequence(reading: _Reading, event: Event, depth: int) -> Sequence:
+    pieces: list[Piece] = []
+    while (item := next(reading.events)).kind != "end":
+        pieces.append((_node(reading, item, depth + 1), NOTHING))
+    items = tuple(node for node, _ in _meant(reading, event, pieces))
+    return Sequence(event.start, item.end if event.flow else items[-1].end, event.flow, items)
+
+
+def _mapping(reading: _Reading, event: Event, depth: int) -> Mapping:
+    pieces: list[Piece] = []
+    while (item := next(reading.events)).kind != "end":
+        key = _node(reading, item, depth + 1)
+        pieces.append((key, _node(reading, next(reading.events), depth + 1, _longest(key))))
+    # The parser's own end of a block lies behind the comments that follow it.
+    end = item.end if event.flow else pieces[-1][1].end
+    entries, mistakes = entries_of(reading.source, _meant(reading, event, pieces), event.flow)
+    reading.mistakes += mistakes
+    return Mapping(event.start, end, event.flow, entries)
+
+
+def _longest(key: Node) -> int:
+    """Return how long the text of a key's value may be."""
+    return MAX_BYTES if isinstance(key, Scalar) and key.text in LONG_KEYS else MAX_TEXT
+
+
+def _meant(reading: _Reading, event: Event, pieces: list[Piece]) -> list[Piece]:
+    if not event.flow:
+        return pieces
+    meant, joined = join_at_commas(reading.source.text, pieces)
+    reading.mistakes += comma_mistakes(reading.source, joined)
+    return meant

@@ -1,0 +1,70 @@
+"""The keys of a mapping: texts, each once, none with a meaning that only YAML 1.1 knows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.errors import Diagnosis
+from bbsd.text.nodes import Entry, Mapping, Node, Scalar, Sequence
+from bbsd.text.reading.traps import glued_mistake
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bbsd.text.reading.traps import Piece
+    from bbsd.text.source import Source
+
+MERGE = "<<"
+
+
+def entries_of(
+    source: Source, pieces: Iterable[Piece], flow: bool
+) -> tuple[dict[str, Entry], list[Diagnosis]]:
+    """Return the entries of a mapping by key, as far as they can be kept, and what is wrong with the keys.
+
+    Of a key that is given twice the first is kept; a number or truth as a key is kept as it is written.
+    """
+    entries: dict[str, Entry] = {}
+    mistakes: list[Diagnosis] = []
+    for key, value in pieces:
+        mistake = _key_mistake(source, key, entries)
+        if isinstance(key, Scalar):
+            mistake = mistake or glued_mistake(source, key, value, flow)
+            if not _is_merge(key):
+                entries.setdefault(key.text, Entry(key, value))
+        if mistake:
+            mistakes.append(mistake)
+    return entries, mistakes
+
+
+def _key_mistake(source: Source, key: Node, entries: dict[str, Entry]) -> Diagnosis | None:
+    place = source.place(key.start, key.end)
+    if not isinstance(key, Scalar) or not isinstance(key.data, str):
+        return Diagnosis("BB008", f"{_named(key)} cannot be a key", place, "keys are names")
+    if _is_merge(key):
+        advice = "write the keys out, or mark a value with &name and repeat it with *name"
+        return Diagnosis("BB007", "YAML 1.2 has no merge key <<", place, advice)
+    if key.text in entries:
+        line = source.line_number(entries[key.text].key.start)
+        return Diagnosis("BB006", f'the key "{key.text}" is given twice, first in line {line}', place)
+    return None
+
+
+def _is_merge(key: Scalar) -> bool:
+    return key.is_plain and key.text == MERGE
+
+
+def _named(key: Node) -> str:
+    match key:
+        case Mapping():
+            return "a mapping"
+        case Sequence():
+            return "a list"
+        case Scalar(data=bool()):
+            return f"the truth {key.text}"
+        case Scalar(data=None):
+            return "null"
+        case Scalar():
+            return f"the number {key.text}"
+        case _:
+            return "an alias"

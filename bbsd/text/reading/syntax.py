@@ -1,0 +1,239 @@
+"""What breaks YAML's grammar, in the words of someone who wants to mend it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from bbsd.errors import Diagnosis
+from bbsd.text.reading.traps import glued
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from yaml import MarkedYAMLError
+
+    from bbsd.text.source import Source
+
+LONGEST_QUOTED = 60
+COMMENT = re.compile(r"\s+#.*")
+# What stands before a value on its line: dashes of lists and keys.
+LEAD = re.compile(r"\s*(?:- +)*(?:[^\s:#'\"][^:#'\"\[{]*:\s+)?")
+VALUES_WITH_END = ("[", "{", "'", '"', "*", "&")
+
+
+@dataclass(frozen=True, slots=True)
+class _Trouble:
+    """What the parser complained about: `at` is where it noticed, `since` where the construct begins."""
+
+    source: Source
+    context: str
+    problem: str
+    at: int
+    since: int
+
+    @property
+    def character(self) -> str:
+        return self.source.text[self.at : self.at + 1]
+
+    def before_on_line(self) -> str:
+        return self.source.text[self.source.line_start(self.at) : self.at]
+
+    def says(
+        self, message: str, advice: str = "", start: int | None = None, end: int | None = None
+    ) -> Diagnosis:
+        place = self.source.place(self.at if start is None else start, end)
+        return Diagnosis("BB004", message, place, advice)
+
+
+def explain(source: Source, error: MarkedYAMLError) -> Diagnosis:
+    """Return the diagnosis of a text that the parser gave up on."""
+    trouble = _trouble(source, error)
+    if trouble.character == "\t" or "tab character" in trouble.problem:
+        return Diagnosis(
+            "BB005", "a tab where blanks are expected", source.place(trouble.at), "indent with blanks"
+        )
+    for context, problem, explanation in _EXPLANATIONS:
+        if context in trouble.context and problem in trouble.problem:
+            return explanation(trouble)
+    return trouble.says(f"this is not YAML: {trouble.problem}")
+
+
+def _trouble(source: Source, error: MarkedYAMLError) -> _Trouble:
+    at = error.problem_mark.index if error.problem_mark else 0
+    since = error.context_mark.index if error.context_mark else at
+    return _Trouble(source, error.context or "", error.problem or "", min(at, len(source.text)), since)
+
+
+def _open_quote(trouble: _Trouble) -> Diagnosis:
+    return trouble.says("this quote is never closed", start=trouble.since)
+
+
+def _bad_escape(trouble: _Trouble) -> Diagnosis:
+    advice = "between single quotes a backslash is only a backslash"
+    return trouble.says(
+        "between double quotes this backslash begins an escape that YAML does not know", advice
+    )
+
+
+def _open_bracket(trouble: _Trouble) -> Diagnosis:
+    source, bracket = trouble.source, trouble.source.text[trouble.since]
+    if trouble.character in {"[", "{"}:
+        advice = "put the value in quotes, or write it on its own line under its key"
+        return trouble.says(
+            f'a value inside {{...}} or [...] cannot contain "{trouble.character}" without quotes', advice
+        )
+    if not trouble.character or _is_outside(source, trouble):
+        return trouble.says(f'this "{bracket}" is never closed', start=trouble.since)
+    closing = "}" if bracket == "{" else "]"
+    return trouble.says(f'there is a comma or a "{closing}" missing before this')
+
+
+def _is_outside(source: Source, trouble: _Trouble) -> bool:
+    """Say whether the line is indented no more than the bracket's, so that it is not meant to be inside."""
+    if source.line_number(trouble.since) == source.line_number(trouble.at):
+        return False
+    return _indent(source, trouble.at) <= _indent(source, trouble.since)
+
+
+def _indent(source: Source, offset: int) -> int:
+    line = source.line(source.line_number(offset))
+    return len(line) - len(line.lstrip(" "))
+
+
+def _needs_quotes(trouble: _Trouble, start: int | None = None) -> Diagnosis:
+    start = trouble.since if start is None else start
+    end = trouble.source.line_end(start)
+    value = COMMENT.sub("", trouble.source.text[start:end]).rstrip()
+    return trouble.says(
+        f'a value that begins with "{value[:1]}" needs quotes', _quoting(value), start, start + len(value)
+    )
+
+
+def _quoting(value: str) -> str:
+    if len(value) > LONGEST_QUOTED or '"' in value or "\\" in value:
+        return "put all of it in quotes, if an expression is meant"
+    return f'write "{value}", if an expression is meant'
+
+
+def _list_on_key_line(trouble: _Trouble) -> Diagnosis:
+    message = "a value cannot begin with a minus and a blank"
+    advice = "remove the blank, if a negative number is meant; begin a list on the line below its key"
+    return _more_after_value(trouble) or trouble.says(message, advice)
+
+
+def _more_after_value(trouble: _Trouble) -> Diagnosis | None:
+    """Diagnose what follows the closing bracket or quote of a value, or an alias, on the same line."""
+    before = trouble.before_on_line()
+    lead = LEAD.match(before)
+    value = before[lead.end() :] if lead else before
+    return _needs_quotes(trouble, trouble.at - len(value)) if value.startswith(VALUES_WITH_END) else None
+
+
+def _no_key(trouble: _Trouble) -> Diagnosis:
+    if trouble.character in {"}", "]"}:
+        return _closes_nothing(trouble)
+    return _more_after_value(trouble) or _misplaced_line(trouble)
+
+
+def _misplaced_line(trouble: _Trouble) -> Diagnosis:
+    if trouble.source.text.startswith("- ", trouble.at):
+        return trouble.says("an item of a list stands among keys", "indent it below the key it belongs to")
+    if trouble.source.text[trouble.at : trouble.at + 3] == "...":
+        return trouble.says("the document ends here in the middle")
+    message = "this line is indented unlike those it should belong to"
+    return trouble.says(message, "the keys of one mapping begin in the same column")
+
+
+def _no_dash(trouble: _Trouble) -> Diagnosis:
+    message = "this line stands in a list and does not begin with a dash"
+    advice = "indent it as the item above, or move it out of the list"
+    return _more_after_value(trouble) or trouble.says(message, advice)
+
+
+def _second_colon(trouble: _Trouble) -> Diagnosis:
+    source, before = trouble.source, trouble.before_on_line()
+    lead = LEAD.match(before)
+    if lead and lead.end() < len(before) and ":" in lead[0]:
+        return _colon_in_value(trouble, source.line_start(trouble.at) + lead.end())
+    above = _line_above(source, trouble.at)
+    if diagnosis := glued(source, above):
+        return diagnosis
+    if ":" not in source.text[above : source.line_end(above)]:
+        return _no_colon(trouble, above)
+    return trouble.says(
+        "this line is indented more than the one above it, which has a value already",
+        "the keys of one mapping begin in the same column",
+        trouble.at - len(before.lstrip()),
+        trouble.at,
+    )
+
+
+def _colon_in_value(trouble: _Trouble, start: int) -> Diagnosis:
+    value = COMMENT.sub("", trouble.source.text[start : trouble.source.line_end(start)]).rstrip()
+    return trouble.says("a value with a colon and a blank in it needs quotes", _quoting(value))
+
+
+def _line_above(source: Source, offset: int) -> int:
+    """Return where the text of the last line before that of the offset begins that is not blank."""
+    above = source.text[: source.line_start(offset)].rstrip()
+    start = source.line_start(len(above))
+    lead = re.compile(r"\s*(?:- +)*").match(source.text, start)
+    return lead.end() if lead else start
+
+
+def _key_without_colon(trouble: _Trouble) -> Diagnosis:
+    return glued(trouble.source, trouble.since) or _no_colon(trouble, trouble.since)
+
+
+def _no_colon(trouble: _Trouble, start: int) -> Diagnosis:
+    end = trouble.source.line_end(start)
+    return trouble.says("there is no colon after this key", "a line is `key: value` or `- item`", start, end)
+
+
+def _closes_nothing(trouble: _Trouble) -> Diagnosis:
+    return trouble.says(f'this "{trouble.character}" closes nothing')
+
+
+def _no_value(trouble: _Trouble) -> Diagnosis:
+    if trouble.character in {"}", "]"}:
+        return _closes_nothing(trouble)
+    if not trouble.character:
+        return trouble.says("the file ends inside a {...} or [...] that is never closed")
+    return trouble.says("a value is missing before this")
+
+
+def _directive(trouble: _Trouble) -> Diagnosis:
+    return trouble.says(
+        "a line cannot begin with %", "a spec needs no such line", trouble.source.line_start(trouble.at)
+    )
+
+
+def _after_end(trouble: _Trouble) -> Diagnosis:
+    return trouble.says("there is more after the end of the document", "remove it, or the line with ...")
+
+
+# (a part of what the parser was doing, a part of what it found, what that means); the first that fits counts.
+_EXPLANATIONS: tuple[tuple[str, str, Callable[[_Trouble], Diagnosis]], ...] = (
+    ("quoted scalar", "unexpected end of stream", _open_quote),
+    ("quoted scalar", "unexpected document indicator", _open_quote),
+    ("quoted scalar", "", _bad_escape),
+    ("flow", "did not find expected ','", _open_bracket),
+    ("directive", "", _directive),
+    ("", "incompatible YAML document", _directive),
+    ("", "directive", _directive),
+    ("scanning a block scalar", "", _needs_quotes),
+    ("scanning an alias", "", _needs_quotes),
+    ("scanning an anchor", "", _needs_quotes),
+    ("tag", "", _needs_quotes),
+    ("", "cannot start any token", _needs_quotes),
+    ("", "mapping keys are not allowed", _needs_quotes),
+    ("", "block sequence entries are not allowed", _list_on_key_line),
+    ("", "did not find expected '-'", _no_dash),
+    ("", "did not find expected key", _no_key),
+    ("", "mapping values are not allowed", _second_colon),
+    ("", "could not find expected ':'", _key_without_colon),
+    ("", "did not find expected node content", _no_value),
+    ("", "expected <document start>", _after_end),
+)

@@ -1,0 +1,1 @@
+"""Damaged and heavy specs that `bbsd check` must survive."""

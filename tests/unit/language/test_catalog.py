@@ -1,0 +1,52 @@
+"""The catalog of mistakes: every code that is told is in it, and its examples are what they say."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import bbsd
+from bbsd.errors import KINDS, Diagnosis, SpecError
+from bbsd.expression import graph
+from bbsd.language.loading import check, load
+from bbsd.text import Source, read
+from tests.unit.language.specs import source
+
+PACKAGE = Path(bbsd.__file__).parent
+CATALOG = PACKAGE / "errors"
+NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB029", "BB045", "BB048"}
+"""What no few lines can show: files that are missing or no text, what is too large, what only a run finds."""
+
+
+def told(example: str) -> tuple[Diagnosis, ...]:
+    """What is wrong with an example: an argument, a part of a spec, or a text that is no YAML."""
+    if example.startswith("--set "):
+        return of_override(example.removeprefix("--set "))
+    return read(Source("example", example)).diagnoses or check(source(example))
+
+
+def of_override(argument: str) -> tuple[Diagnosis, ...]:
+    try:
+        load(source(), overrides=[argument])
+    except SpecError as error:
+        return error.diagnoses
+    return ()
+
+
+def test_the_codes_that_are_told_are_those_of_the_catalog() -> None:
+    sources = [path for path in PACKAGE.rglob("*.py") if path.parent != CATALOG]
+    used = {code for path in sources for code in re.findall(r'"(BB\d{3})"', path.read_text(encoding="utf-8"))}
+    assert used == set(KINDS)
+
+
+@pytest.mark.parametrize("code", sorted(set(KINDS) - NO_EXAMPLES))
+def test_an_example_has_its_mistake_and_nothing_else(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(graph, "MAX_NODES", 20_000)
+    assert {each.code for each in told(KINDS[code].example)} == {code}
+
+
+@pytest.mark.parametrize("code", sorted(set(KINDS) - NO_EXAMPLES))
+def test_the_mended_example_has_it_no_longer(code: str) -> None:
+    left = told(KINDS[code].mend)
+    assert code not in {each.code for each in left}
+    assert left == () or code < "BB020"

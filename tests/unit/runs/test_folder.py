@@ -1,0 +1,123 @@
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from bbsd.runs.folder import Folder, FolderError, identity, new_folder, old_folder
+
+WHO = identity("a spec", ("design.sharing=value",), 3, 2)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return Folder(tmp_path)
+
+
+def test_the_only_run_is_kept_in_the_folder_itself(folder):
+    assert folder.records(0, 1).path == folder.path
+    assert folder.records(2, 4).path == folder.path / "run-3"
+
+
+def test_the_metrics_of_all_runs_are_gathered_in_their_order(folder):
+    for run in (1, 0, 2):
+        records = folder.records(run, 3)
+        records.path.mkdir()
+        records.metrics.write_text(f'{{"run": {run + 1}, "generation": 1}}\n')
+    folder.gather(3)
+    assert [line["run"] for line in folder.lines()] == [1, 2, 3]
+
+
+def test_the_metrics_of_the_only_run_are_left_as_they_are(folder):
+    folder.metrics.write_text('{"run": 1, "generation": 1}\n')
+    folder.gather(1)
+    assert folder.lines() == [{"run": 1, "generation": 1}]
+
+
+def test_a_note_tells_what_was_run_and_with_what(folder):
+    folder.write_note(WHO)
+    note = json.loads(folder.note.read_text())
+    assert (note["format"], note["seed"], note["runs"], note["set"]) == (2, 3, 2, ["design.sharing=value"])
+    assert len(note["spec_sha256"]) == 64
+    assert "numba" in note["versions"]
+    assert "result" not in note
+    folder.write_note(WHO, {"return": 5})
+    assert json.loads(folder.note.read_text())["result"] == {"return": 5}
+
+
+def test_only_the_same_is_gone_on_with(folder):
+    folder.write_note(WHO)
+    assert folder.is_of(WHO)
+    others = [
+        identity("another spec", WHO.overrides, 3, 2),
+        identity("a spec", (), 3, 2),
+        identity("a spec", WHO.overrides, 4, 2),
+        identity("a spec", WHO.overrides, 3, 1),
+    ]
+    assert not any(folder.is_of(other) for other in others)
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", "no note"])
+def test_what_is_no_note_is_of_nothing(folder, text):
+    folder.note.write_text(text)
+    assert not folder.is_of(WHO)
+
+
+def test_new_folders_are_the_first_free_ones(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    made = [new_folder(None, "lift", 7).path for _ in range(3)]
+    assert made == [Path("runs/lift-seed7"), Path("runs/lift-seed7-2"), Path("runs/lift-seed7-3")]
+    assert all(path.is_dir() for path in made)
+
+
+def test_a_file_in_the_way_is_passed_over(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("runs").mkdir()
+    Path("runs/lift-seed7").touch()
+    Path("runs/lift-seed7-2").symlink_to("nowhere")
+    assert new_folder(None, "lift", 7).path == Path("runs/lift-seed7-3")
+
+
+def test_a_wanted_folder_may_be_new_or_empty(tmp_path):
+    wanted = tmp_path / "some" / "where"
+    assert new_folder(wanted, "lift", 7).path == wanted
+    assert new_folder(wanted, "lift", 7).path == wanted
+
+
+def test_nothing_is_overwritten(tmp_path):
+    (tmp_path / "mine").touch()
+    for wanted in (tmp_path, tmp_path / "mine"):
+        with pytest.raises(FolderError, match="is not empty; nothing is overwritten"):
+            new_folder(wanted, "lift", 7)
+
+
+def test_a_folder_that_cannot_be_made_is_an_error(tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(FolderError, match="cannot be made"):
+        new_folder(tmp_path / "file" / "below", "lift", 7)
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="nothing is forbidden here")
+def test_a_folder_that_cannot_be_read_is_an_error(tmp_path):
+    tmp_path.chmod(0)
+    with pytest.raises(FolderError, match="cannot be made"):
+        new_folder(tmp_path, "lift", 7)
+    tmp_path.chmod(0o700)
+
+
+def test_the_newest_default_folder_of_the_same_is_gone_on_with(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    other = identity("a spec", (), 3, 2)
+    for who in (WHO, WHO, other):
+        new_folder(None, "lift", 3).write_note(who)
+    assert old_folder(None, "lift", WHO).path == Path("runs/lift-seed3-2")
+    assert old_folder(None, "lift", other).path == Path("runs/lift-seed3-3")
+    with pytest.raises(FolderError, match="there is no run"):
+        old_folder(None, "push", WHO)
+
+
+def test_a_wanted_folder_must_be_of_the_same(tmp_path):
+    with pytest.raises(FolderError, match="holds no run of this spec"):
+        old_folder(tmp_path, "lift", WHO)
+    Folder(tmp_path).write_note(WHO)
+    assert old_folder(tmp_path, "lift", WHO).path == tmp_path

@@ -1,0 +1,109 @@
+from collections import deque
+from contextlib import nullcontext
+
+import pytest
+
+from bbsd.errors import UsageError
+from bbsd.runs import workers
+from bbsd.runs.command import Command, answers
+from bbsd.runs.folder import Folder
+from bbsd.runs.signals import interrupts_request_stop
+from bbsd.stopping import StopRequest
+from bbsd.runs.processes import waiting
+from bbsd.runs.workers import WorkerLost, side_by_side
+from tests.unit.solver.problems import guess
+
+RUNS = 3
+
+
+@pytest.fixture
+def command(tmp_path):
+    def make(name):
+        (tmp_path / name).mkdir()
+        return Command(*guess(lanes=5), seed=11, n_runs=RUNS, folder=Folder(tmp_path / name))
+
+    return make
+
+
+@pytest.fixture(autouse=True)
+def noted():
+    with interrupts_request_stop():
+        yield
+
+
+def plain(architectures):
+    return [([*map(list, each.tables)], each.structure.tolist()) for each in architectures]
+
+
+def test_runs_side_by_side_have_the_answers_and_records_of_runs_one_after_the_other(command):
+    alone, together, told = command("alone"), command("together"), []
+    found = side_by_side(together, [*range(RUNS)], 2, told.append)
+    assert plain(found[run] for run in range(RUNS)) == plain(answers(alone, 1))
+    for run in range(RUNS):
+        assert together.records(run).lines() == alone.records(run).lines()
+        assert [line for line in told if line["run"] == run + 1] == alone.records(run).lines()
+
+
+def test_workers_that_are_ready_are_taken_also_where_they_are_more_than_needed(command):
+    alone, together = command("alone"), command("together")
+    with waiting(2) as ready:
+        found = side_by_side(together, [1, 2], 2, None, ready)
+        assert ready.used
+    assert plain(found[run] for run in (1, 2)) == plain(answers(alone, 1)[1:])
+
+
+def test_an_error_of_who_is_told_stops_all(command):
+    def tell(_line):
+        raise OSError("no more")
+
+    with pytest.raises(OSError, match="no more"):
+        side_by_side(command("stopped"), [*range(RUNS)], 2, tell)
+
+
+@pytest.mark.parametrize(
+    ("jobs", "expected"), [(2, (1, 1, 1)), (5, (2, 1, 3)), (7, (2, 2, 3)), (3, (2, 1, 1))]
+)
+def test_jobs_that_are_left_over_are_threads(monkeypatch, command, jobs, expected):
+    seen = []
+
+    class Enough(Exception):
+        pass
+
+    def at_work(count, of_workers):
+        seen.extend([count, of_workers.problem.jobs])
+        raise Enough
+
+    monkeypatch.setattr(workers, "waiting", nullcontext)
+    monkeypatch.setattr(workers, "_at_work", at_work)
+    with pytest.raises(Enough):
+        side_by_side(command("jobs"), [*range(RUNS)], jobs, None)
+    n_workers, threads, own = expected
+    assert seen == [n_workers, threads]
+    assert own == jobs - n_workers * threads
+
+
+def test_a_failure_leaves_no_run_to_take_and_is_wished_to_stop():
+    def fail(run):
+        raise OSError(f"run {run}")
+
+    left, failed, request = deque([3, 4, 5]), {}, StopRequest()
+    workers._take_runs(fail, left, {}, failed, request)
+    assert [*failed] == [3]
+    assert not left
+    assert request.is_made
+
+
+def test_of_several_failures_the_one_of_the_first_run_is_raised_and_what_was_only_stopped_comes_last():
+    failures = {0: KeyboardInterrupt(), 2: OSError("second"), 1: ValueError("first")}
+    with pytest.raises(ValueError, match="first"):
+        workers._raise_first(failures)
+    with pytest.raises(KeyboardInterrupt):
+        workers._raise_first({0: KeyboardInterrupt()})
+    workers._raise_first({})
+
+
+def test_a_lost_worker_is_something_to_go_on_from(tmp_path):
+    error = WorkerLost(tmp_path)
+    assert isinstance(error, UsageError)
+    assert str(tmp_path) in str(error)
+    assert "--resume" in error.advice
