@@ -12,8 +12,8 @@ import numpy as np
 
 from bbsd.architecture import designed_text, given_architecture, require_writable, tidied
 from bbsd.compiler import Problem, compile_meaning
+from bbsd.compiler.details import Detail
 from bbsd.compiler.problem import DEFAULT_LANES
-from bbsd.compiler.writing.rollout_function import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.errors import Diagnosis, SpecError, UsageError
 from bbsd.evaluation import (

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import numpy.typing as npt
 
+from bbsd.compiler.details import Detail, checked_slots
 from bbsd.compiler.passes.shared_slots import merged
 from bbsd.compiler.tables import Pool, TableShape, shape_of
 from bbsd.compiler.team import Team
-from bbsd.compiler.writing.rollout_function import Detail
 from bbsd.compiler.writing.source import module_source
-from bbsd.compiler.writing.totals import odd_slots
 from bbsd.kernel.modules import load_kernel
 from bbsd.language.meaning.size import Size, size_of
 
@@ -85,7 +84,7 @@ class Problem:
     @property
     def places(self) -> list[Slot]:
         """Where a detailed outcome counts values that are not finite."""
-        return odd_slots(self.meaning.episode)
+        return checked_slots(self.meaning.episode)
 
     @cached_property
     def _module(self) -> Any:  # noqa: ANN401 - a generated module

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from bbsd.compiler.details import Detail, traced_columns
 from bbsd.compiler.writing.naming import slot_text
-from bbsd.compiler.writing.rollout_function import Detail
-from bbsd.compiler.writing.source import module_source, traced_columns
+from bbsd.compiler.writing.source import module_source
 from bbsd.evaluation.scene import Scene, scene, starting_values
 from bbsd.kernel.modules import load_kernel
 from bbsd.language.meaning.partitions import is_partition
@@ -18,6 +18,7 @@ from bbsd.language.meaning.partitions import is_partition
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
+    from bbsd.compiler.details import Column
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.labels import Labels
     from bbsd.language.meaning.names import Slot
@@ -105,7 +106,7 @@ def _scene(lived: Trace, meaning: Meaning, key: int, generation: int) -> Scene |
     return scene(meaning.episode.picture, moments, constants)
 
 
-def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> Trace:
+def _read(problem: Problem, columns: list[Column], record: Floats) -> Trace:
     names = [("nobody", "")]
     names += [
         (behavior.name, action) for behavior in problem.meaning.episode.modules for action in behavior.actions
@@ -115,13 +116,13 @@ def _read(problem: Problem, columns: list[tuple[str, Slot]], record: Floats) -> 
     actions: list[list[str]] = []
     rewards: dict[str, list[Floats]] = {}
     expectations: list[list[str]] = []
-    for (what, slot), column in zip(columns, record.T, strict=True):
-        if what == "choice":
+    for (content, slot), column in zip(columns, record.T, strict=True):
+        if content == "choice":
             controlling.append([names[int(number)][0] for number in column])
             actions.append([names[int(number)][1] for number in column])
-        elif what == "expectation":
+        elif content == "expectation":
             expectations.append([EXPECTATION[int(number)] for number in column])
-        elif what == "reward":
+        elif content == "reward":
             rewards.setdefault(slot[0], []).append(column)
         else:
             cells = _cells_of(problem, slot)

@@ -10,7 +10,7 @@ import pytest
 
 import bbsd
 from bbsd.compiler import compile_meaning
-from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.errors import SpecError
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
+from bbsd.compiler.details import Detail, traced_definitions
 from bbsd.compiler.writing.blocks import Block, Blocks
 from bbsd.compiler.writing.emission import Emitter
 from bbsd.compiler.writing.looping import Loops
@@ -25,14 +25,6 @@ if TYPE_CHECKING:
 
 OWN = (Level.ROBOT, Level.EACH)
 """The levels of what each robot has of its own."""
-
-
-class Detail(Enum):
-    """What a rollout tells besides returns and credit, as its function's name."""
-
-    CREDIT = "rollout"
-    TERMS = "rollout_detailed"
-    TRACE = "rollout_traced"
 
 
 @dataclass
@@ -171,15 +163,8 @@ class Frame:
             wanted += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
             wanted += [node for nodes in episode.expects.values() for node in nodes]
         if self.detail is Detail.TRACE:
-            wanted += [*episode.after.values(), *self.traced_definitions.values()]
+            wanted += [*episode.after.values(), *traced_definitions(episode).values()]
         return with_slots_read(wanted, episode)
-
-    @property
-    def traced_definitions(self) -> dict[Slot, Node]:
-        """The definitions that a trace shows."""
-        return {
-            slot: node for slot, node in self.episode.definitions.items() if node.kind is not Kind.UNKNOWN
-        }
 
     @cached_property
     def _hints(self) -> dict[int, str]:

@@ -9,15 +9,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
 from bbsd.compiler.passes.tangents import by_tangents
 from bbsd.compiler.writing.deciding import Decision
 from bbsd.compiler.writing.loop_fission import written
 from bbsd.compiler.writing.naming import slot_text
-from bbsd.compiler.writing.rollout_function import OWN, Detail, Frame, indented
+from bbsd.compiler.writing.rollout_function import OWN, Frame, indented
 from bbsd.compiler.writing.schedule import Closing, closing
 from bbsd.compiler.writing.totals import DETAILED, Reckoning
-from bbsd.expression.graph import Kind
 from bbsd.kernel import functions, memory, streams
 from bbsd.version import __version__
 
@@ -166,19 +166,3 @@ def _after(frame: Frame, emitter: Emitter, end: Closing) -> dict[Slot, str]:
         else:
             found[slot] = emitter.named(node, wanted, block)
     return found
-
-
-def traced_columns(meaning: Meaning) -> list[tuple[str, Slot]]:
-    """The columns of a trace's record: what each holds, and whose it is."""
-    episode, robots = meaning.episode, range(meaning.spec.environment.robots)
-    return [
-        *(("slot", slot) for slot in episode.after),
-        *(
-            ("definition", slot)
-            for slot, node in episode.definitions.items()
-            if node.kind is not Kind.UNKNOWN
-        ),
-        *(("choice", ("controlling", robot, ())) for robot in robots),
-        *(("expectation", ("expectation", robot, ())) for robot in robots if episode.expects),
-        *(("reward", (term, robot, ())) for term in episode.reward for robot in robots),
-    ]

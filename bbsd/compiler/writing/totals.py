@@ -7,10 +7,11 @@ from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from bbsd.compiler.details import Detail, checked_slots, traced_definitions
 from bbsd.compiler.writing.naming import slot_text
 from bbsd.compiler.writing.precedence import ATOM, sum_of, times
-from bbsd.compiler.writing.rollout_function import OWN, Detail
-from bbsd.expression.graph import Kind, value_of
+from bbsd.compiler.writing.rollout_function import OWN
+from bbsd.expression.graph import value_of
 
 if TYPE_CHECKING:
     from bbsd.compiler.writing.deciding import Decision
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.rollout_function import Frame
     from bbsd.compiler.writing.schedule import Closing
     from bbsd.expression.graph import Node
-    from bbsd.language.meaning.episode import Episode
     from bbsd.language.meaning.names import Slot
 
 MOST_NESTED = 3
@@ -68,7 +68,7 @@ class Reckoning:
         frame = self.frame
         if frame.detail is Detail.CREDIT:
             return {}
-        return {slot: self._count_of(slot) for slot in odd_slots(frame.episode)}
+        return {slot: self._count_of(slot) for slot in checked_slots(frame.episode)}
 
     def _count_of(self, slot: Slot) -> str:
         wanted = f"odd_{slot_text(slot, self.frame.robots)}"
@@ -192,7 +192,7 @@ class Reckoning:
         frame = self.frame
         columns = [
             *(emitter.value(node, end.team) for node in frame.episode.after.values()),
-            *(emitter.value(node, end.team) for node in frame.traced_definitions.values()),
+            *(emitter.value(node, end.team) for node in traced_definitions(frame.episode).values()),
             *frame.actions,
             *self._expectations(emitter, end),
             *(self.earned[term, robot] for term in frame.episode.reward for robot in range(frame.robots)),
@@ -252,11 +252,6 @@ class Reckoning:
                     found += [(name, str(first + element + k * len(arrays))) for k in range(robots)]
             first += robots * len(arrays)
         return found
-
-
-def odd_slots(episode: Episode) -> list[Slot]:
-    """The places at which a detailed rollout counts values that are not finite."""
-    return [slot for slot, node in episode.after.items() if node.kind is Kind.NUMBER]
 
 
 def _is_sometimes(node: Node) -> bool:

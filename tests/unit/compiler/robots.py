@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from bbsd.compiler import compile_meaning
-from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.kernel.modules import load_kernel
 from bbsd.language.meaning import mean

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.evaluation import trace
 from bbsd.solver.random_agents import random_agents

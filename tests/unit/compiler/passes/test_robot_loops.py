@@ -5,9 +5,9 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
+from bbsd.compiler.details import Detail
 from bbsd.compiler.passes import folds
 from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
-from bbsd.compiler.writing.rollout_function import Detail
 from bbsd.language.meaning import mean
 from bbsd.language.models import Spec
 from tests.interpreter.made_up import specs

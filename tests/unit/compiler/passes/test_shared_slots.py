@@ -1,8 +1,9 @@
 import numpy as np
 
 from bbsd.compiler import Problem, compile_meaning
+from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.shared_slots import merged
-from bbsd.compiler.writing.rollout_function import Detail, Frame
+from bbsd.compiler.writing.rollout_function import Frame
 from bbsd.compiler.writing.source import module_source
 from tests.unit.architecture.designs import meaning_of, shipped
 from tests.unit.problems import RICH, lived, problem_of

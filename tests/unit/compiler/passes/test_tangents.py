@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.tangents import by_tangents
-from bbsd.compiler.writing.rollout_function import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.expression.graph import evaluate
 from bbsd.kernel import functions

@@ -2,9 +2,10 @@
 
 import pytest
 
+from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.blocks import Block
 from bbsd.compiler.writing.loop_fission import LONGEST, loops
-from bbsd.compiler.writing.rollout_function import Detail, Frame
+from bbsd.compiler.writing.rollout_function import Frame
 from bbsd.expression.graph import Kind, Level
 from tests.unit.problems import RICH, problem_of
 

@@ -2,9 +2,10 @@
 
 import pytest
 
+from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.compiler.passes.robot_loops import rolled
-from bbsd.compiler.writing.rollout_function import Detail, Frame
+from bbsd.compiler.writing.rollout_function import Frame
 from bbsd.expression.graph import Kind, Level
 from tests.unit.compiler.robots import moving
 

@@ -1,7 +1,7 @@
 import pytest
 
-from bbsd.compiler.writing.rollout_function import Detail
-from bbsd.compiler.writing.source import module_source, traced_columns
+from bbsd.compiler.details import Detail
+from bbsd.compiler.writing.source import module_source
 from tests.unit.architecture.designs import shipped
 from tests.unit.problems import RICH, lived, problem_of
 
@@ -111,19 +111,3 @@ def test_an_episode_that_cannot_end_early_has_no_test_for_it():
     assert "break" in source_of(problem_of(GUARD), Detail.CREDIT)
     assert "break" not in source_of(problem_of(text), Detail.CREDIT)
     assert lived(problem_of(text), 5).taken.tolist() == [10] * 5
-
-
-def test_a_record_has_a_column_for_everything():
-    columns = traced_columns(problem_of(GUARD).meaning)
-    assert columns == [
-        ("slot", ("x", 0, ())),
-        ("slot", ("x", 1, ())),
-        ("slot", ("awake", 0, ())),
-        ("slot", ("awake", 1, ())),
-        ("slot", ("middle", 0, ())),
-        ("slot", ("middle", 1, ())),
-        ("choice", ("controlling", 0, ())),
-        ("choice", ("controlling", 1, ())),
-        ("reward", ("close", 0, ())),
-        ("reward", ("close", 1, ())),
-    ]

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from bbsd.compiler import compile_meaning
-from bbsd.compiler.writing.rollout_function import Detail
+from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.expression.graph import Node, needed
 from bbsd.language.loading import load

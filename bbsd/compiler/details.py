@@ -1,0 +1,51 @@
+"""How much a rollout reports: returns and credit alone, what an evaluation adds up, or every value of every step."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from bbsd.expression.graph import Kind
+
+if TYPE_CHECKING:
+    from bbsd.expression.graph import Node
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.names import Slot
+
+
+class Detail(Enum):
+    """What a rollout reports besides returns and credit; the values are the names of its functions."""
+
+    CREDIT = "rollout"
+    TERMS = "rollout_detailed"
+    TRACE = "rollout_traced"
+
+
+class Column(NamedTuple):
+    """A column of a trace's record: the kind of its values, and the name, robot and element that they belong to."""
+
+    content: Literal["slot", "definition", "choice", "expectation", "reward"]
+    slot: Slot
+
+
+def traced_columns(meaning: Meaning) -> list[Column]:
+    """Return the columns of a trace's record in their order."""
+    episode, robots = meaning.episode, range(meaning.spec.environment.robots)
+    return [
+        *(Column("slot", slot) for slot in episode.after),
+        *(Column("definition", slot) for slot in traced_definitions(episode)),
+        *(Column("choice", ("controlling", robot, ())) for robot in robots),
+        *(Column("expectation", ("expectation", robot, ())) for robot in robots if episode.expects),
+        *(Column("reward", (term, robot, ())) for term in episode.reward for robot in robots),
+    ]
+
+
+def traced_definitions(episode: Episode) -> dict[Slot, Node]:
+    """Return the definitions that a trace shows."""
+    return {slot: node for slot, node in episode.definitions.items() if node.kind is not Kind.UNKNOWN}
+
+
+def checked_slots(episode: Episode) -> list[Slot]:
+    """Return the slots of which a detailed rollout counts the steps with a value that is not finite."""
+    return [slot for slot, node in episode.after.items() if node.kind is Kind.NUMBER]
