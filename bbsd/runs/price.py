@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.kernel.streams import fold, name_word
-from bbsd.solver.race import FIRST_ROUND
-from bbsd.runs.run import RANDOM_AGENTS, RANDOM_EPISODES
-from bbsd.runs.sampling import sample
 from bbsd.language.meaning import seed_key
 from bbsd.language.meaning.structure import OPEN_LAYER
+from bbsd.runs.run import RANDOM_AGENTS, RANDOM_EPISODES
+from bbsd.runs.sampling import sample
+from bbsd.solver.race import FIRST_ROUND
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem

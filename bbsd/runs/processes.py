@@ -109,7 +109,9 @@ def _no_interrupts() -> Iterator[None]:
 def _begin(lifeline: Connection) -> None:
     """Make a worker of this process."""
     atexit.register(gc.freeze)  # as in the parent
-    threading.Thread(target=_stop_with_parent, args=(lifeline, stop_request_of_process()), daemon=True).start()
+    threading.Thread(
+        target=_stop_with_parent, args=(lifeline, stop_request_of_process()), daemon=True
+    ).start()
     import_module(NEEDED)
 
 

@@ -11,14 +11,14 @@ from bbsd.evaluation import Evaluation, Interval, agents_of, detailed, evaluatio
 from bbsd.evaluation.sums import row_means
 from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.language.meaning import seed_key
 from bbsd.runs import metrics
-from bbsd.solver.answer import answer, different
 from bbsd.runs.checkpoint import Progress
+from bbsd.solver.answer import answer, different
 from bbsd.solver.generation import beginning, next_generation
 from bbsd.solver.lifetime import live
 from bbsd.solver.race import race
 from bbsd.solver.random_agents import random_agents
-from bbsd.language.meaning import seed_key
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

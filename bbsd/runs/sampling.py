@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from bbsd.evaluation import detailed
 from bbsd.kernel.keys import keys
 from bbsd.runs import checkpoint, metrics
+from bbsd.runs.rehearsal import rehearse
 from bbsd.solver.generation import beginning, next_generation
 from bbsd.solver.random_agents import random_agents
-from bbsd.runs.rehearsal import rehearse
 
 if TYPE_CHECKING:
     from collections.abc import Callable

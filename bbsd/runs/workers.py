@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
 from bbsd.runs.following import Follower
-from bbsd.stopping import StopRequest, raise_if_stopped, current_stop_request
 from bbsd.runs.processes import Processes, waiting
 from bbsd.runs.rehearsal import rehearse
+from bbsd.stopping import StopRequest, current_stop_request, raise_if_stopped
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

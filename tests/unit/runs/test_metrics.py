@@ -3,8 +3,8 @@ import json
 import numpy as np
 import pytest
 
-from bbsd.solver.generation import Census, beginning
 from bbsd.runs.metrics import diversity, line
+from bbsd.solver.generation import Census, beginning
 from tests.unit.solver.problems import guess
 
 

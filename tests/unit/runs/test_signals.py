@@ -6,7 +6,7 @@ import pytest
 
 from bbsd.runs import signals
 from bbsd.runs.signals import interrupts_request_stop
-from bbsd.stopping import StopRequest, raise_if_stopped, current_stop_request
+from bbsd.stopping import StopRequest, current_stop_request, raise_if_stopped
 
 
 def interrupt():

@@ -7,10 +7,10 @@ from bbsd.errors import UsageError
 from bbsd.runs import workers
 from bbsd.runs.command import Command, answers
 from bbsd.runs.folder import Folder
-from bbsd.runs.signals import interrupts_request_stop
-from bbsd.stopping import StopRequest
 from bbsd.runs.processes import waiting
+from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.workers import WorkerLost, side_by_side
+from bbsd.stopping import StopRequest
 from tests.unit.solver.problems import guess
 
 RUNS = 3
