@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.kernel.modules import CACHE_VARIABLE
+from bbsd.kernel.cache import CACHE_VARIABLE
 from benchmarks.lifting import SPECS
 from benchmarks.page import Asked, table
 

@@ -2,7 +2,7 @@
 
 from bbsd.errors.catalog import KINDS, describe
 from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
-from bbsd.errors.kind import Kind
+from bbsd.errors.kind import DiagnosisKind
 from bbsd.errors.rendering import escape, render_json, render_text
 from bbsd.errors.suggestion import did_you_mean
 from bbsd.errors.usage import UsageError
@@ -10,7 +10,7 @@ from bbsd.errors.usage import UsageError
 __all__ = [
     "KINDS",
     "Diagnosis",
-    "Kind",
+    "DiagnosisKind",
     "Lines",
     "Place",
     "SpecError",

@@ -11,11 +11,13 @@ from bbsd.errors.text_kinds import TEXT_KINDS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from bbsd.errors.kind import Kind
+    from bbsd.errors.kind import DiagnosisKind
 
-KINDS: Mapping[str, Kind] = {kind.code: kind for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS)}
+KINDS: Mapping[str, DiagnosisKind] = {
+    kind.code: kind for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS)
+}
 
 
-def describe(code: str) -> Kind:
+def describe(code: str) -> DiagnosisKind:
     """Return the kind of mistake of a code, in either case; raises KeyError if there is no such code."""
     return KINDS[code.upper()]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from bbsd.errors.kind import Kind
+from bbsd.errors.kind import DiagnosisKind
 
 EXPRESSION_KINDS = (
-    Kind(
+    DiagnosisKind(
         code="BB050",
         title="not an expression",
         explanation=(
@@ -15,7 +15,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilted: tilt > (1",
         mend="environment:\n  sensors:\n    tilted: tilt > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB051",
         title="not in the language",
         explanation=(
@@ -25,7 +25,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilted: robot.tilt > 1",
         mend="environment:\n  sensors:\n    tilted: tilt > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB052",
         title="an unknown name",
         explanation=(
@@ -35,7 +35,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilted: tild > 1",
         mend="environment:\n  sensors:\n    tilted: tilt > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB053",
         title="an unknown function",
         explanation=(
@@ -45,14 +45,14 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilted: absolute(tilt) > 1",
         mend="environment:\n  sensors:\n    tilted: abs(tilt) > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB054",
         title="too many arguments or too few",
         explanation="Each function and each definition takes its own number of arguments.",
         example="environment:\n  sensors:\n    tilted: hypot(tilt) > 1",
         mend="environment:\n  sensors:\n    tilted: hypot(tilt, speed) > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB055",
         title="a truth for a number, or a number for a truth",
         explanation=(
@@ -62,7 +62,7 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: abs(height - 3) < 1",
         mend="reward:\n  near: 1 if abs(height - 3) < 1 else 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB056",
         title="a list for one value, or one value for a list",
         explanation=(
@@ -72,7 +72,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilted: list(tilt, speed) > 1",
         mend="environment:\n  sensors:\n    tilted: max(tilt, speed) > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB057",
         title="an index of nothing",
         explanation=(
@@ -82,7 +82,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilted: height[3] > 1      # of three robots",
         mend="environment:\n  sensors:\n    tilted: height[2] > 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB058",
         title="a draw where nothing is drawn",
         explanation=(
@@ -93,7 +93,7 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: uniform(0, 1)",
         mend="environment:\n  sensors:\n    luck: uniform(0, 1)\nreward:\n  near: luck",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB059",
         title="one robot's value, where the team is meant",
         explanation=(
@@ -103,7 +103,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  ends: height > 3",
         mend="environment:\n  ends: all(height[r] > 3 for r in team)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB060",
         title="too long or too deep",
         explanation=(
@@ -113,7 +113,7 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: sum(height for k in range(20000))",
         mend="reward:\n  near: sum(height for k in range(20))",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB061",
         title="a power of one changing number by another",
         explanation=(
@@ -123,7 +123,7 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: height ** speed",
         mend="reward:\n  near: height ** 2",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB062",
         title="a generator that cannot be gone through",
         explanation=(
@@ -133,7 +133,7 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: sum(height[r] for r in team if r > 0)",
         mend="reward:\n  near: sum(height[r] if r > 0 else 0 for r in team)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB063",
         title="values that need each other",
         explanation=(
@@ -143,7 +143,7 @@ EXPRESSION_KINDS = (
         example="environment:\n  sensors:\n    tilt: turn + 1\n    turn: tilt - 1",
         mend="environment:\n  sensors:\n    tilt: speed + 1\n    turn: tilt - 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB064",
         title="not a whole number",
         explanation=(
@@ -153,7 +153,7 @@ EXPRESSION_KINDS = (
         example="behaviors:\n  stop:\n    inputs:\n      reached: values(height, 0, 5)",
         mend="behaviors:\n  stop:\n    inputs:\n      reached: values(floor(height), 0, 5)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB065",
         title="before(...) where nothing was before",
         explanation=(
@@ -170,7 +170,7 @@ EXPRESSION_KINDS = (
             "    excited: rises"
         ),
     ),
-    Kind(
+    DiagnosisKind(
         code="BB066",
         title="not known here",
         explanation=(
@@ -181,7 +181,7 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: generation",
         mend="constants:\n  bonus: generation\nreward:\n  near: bonus",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB067",
         title="a partition used as a value",
         explanation=(
@@ -193,7 +193,7 @@ EXPRESSION_KINDS = (
         ),
         mend="environment:\n  sensors:\n    zone: cut(height, 2, 3)\nreward:\n  near: 1 if height > 2 else 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB068",
         title="too many values",
         explanation=(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class DiagnosisKind:
     """A kind of mistake: its stable code, a few words, why it is one, a text that has it, the same mended."""
 
     code: str

@@ -5,10 +5,10 @@ An example is a part of a spec, or an argument of the command line where it begi
 
 from __future__ import annotations
 
-from bbsd.errors.kind import Kind
+from bbsd.errors.kind import DiagnosisKind
 
 SPEC_KINDS = (
-    Kind(
+    DiagnosisKind(
         code="BB020",
         title="an unexpected key",
         explanation=(
@@ -18,7 +18,7 @@ SPEC_KINDS = (
         example="environment:\n  step: 300",
         mend="environment:\n  steps: 300",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB021",
         title="a missing key",
         explanation="Some keys have no default: without them there is nothing to design.",
@@ -32,7 +32,7 @@ SPEC_KINDS = (
             "        speed: speed + 1"
         ),
     ),
-    Kind(
+    DiagnosisKind(
         code="BB022",
         title="the wrong kind of value",
         explanation=(
@@ -42,7 +42,7 @@ SPEC_KINDS = (
         example="environment:\n  robots: three",
         mend="environment:\n  robots: 3",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB023",
         title="a value that is not allowed",
         explanation=(
@@ -52,7 +52,7 @@ SPEC_KINDS = (
         example="environment:\n  robots: 300",
         mend="environment:\n  robots: 30",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB024",
         title="not a name",
         explanation=(
@@ -63,7 +63,7 @@ SPEC_KINDS = (
         example="constants:\n  TopSpeed: 5",
         mend="constants:\n  top_speed: 5",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB025",
         title="a name for two things",
         explanation=(
@@ -73,7 +73,7 @@ SPEC_KINDS = (
         example="constants:\n  speed: 5",
         mend="constants:\n  top_speed: 5",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB026",
         title="another version of the language",
         explanation=(
@@ -83,7 +83,7 @@ SPEC_KINDS = (
         example="bbsd: 2",
         mend="bbsd: 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB027",
         title="an empty block",
         explanation=(
@@ -93,7 +93,7 @@ SPEC_KINDS = (
         example="reward: {}",
         mend="reward:\n  near: 1 if abs(height - 3) < 0.5 else 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB028",
         title="an override that cannot be set",
         explanation=(
@@ -104,7 +104,7 @@ SPEC_KINDS = (
         example="--set design.coevolution.generatoins=10",
         mend="--set design.coevolution.generations=10",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB029",
         title="a file that cannot be extended",
         explanation=(
@@ -115,7 +115,7 @@ SPEC_KINDS = (
         example="extends: ../lifting.yaml",
         mend="extends: bases/lifting.yaml",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB030",
         title="an input that is not partitioned",
         explanation=(
@@ -125,7 +125,7 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    inputs:\n      reached: height",
         mend="behaviors:\n  stop:\n    inputs:\n      reached: cut(height, 2, 3)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB031",
         title="cut or values of nothing that can be cut so",
         explanation=(
@@ -135,7 +135,7 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    inputs:\n      reached: cut(height, 3, 2)",
         mend="behaviors:\n  stop:\n    inputs:\n      reached: cut(height, 2, 3)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB032",
         title="cells that may leave a gap",
         explanation=(
@@ -146,7 +146,7 @@ SPEC_KINDS = (
         example="environment:\n  sensors:\n    zone:\n      low: height < 2\n      high: height > 2",
         mend="environment:\n  sensors:\n    zone:\n      low: height < 2\n      high: otherwise",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB033",
         title="something that cannot be set",
         explanation=(
@@ -156,14 +156,14 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    actions:\n      halt:\n        tilt: 0",
         mend="behaviors:\n  stop:\n    actions:\n      halt:\n        speed: 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB034",
         title="a rule with an unknown input",
         explanation="A rule can ask only for the inputs of its own behavior.",
         example="behaviors:\n  stop:\n    rules:\n      - when: {tilted: true}\n        do: halt",
         mend="behaviors:\n  stop:\n    rules:\n      - when: {reached: true}\n        do: halt",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB035",
         title="a rule with an unknown cell",
         explanation=(
@@ -174,7 +174,7 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    rules:\n      - when: {reached: yes}\n        do: halt",
         mend="behaviors:\n  stop:\n    rules:\n      - when: {reached: true}\n        do: halt",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB036",
         title="a rule with an unknown action",
         explanation=(
@@ -184,7 +184,7 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    rules:\n      - otherwise: Halt",
         mend="behaviors:\n  stop:\n    rules:\n      - otherwise: halt",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB037",
         title="a rule that never applies",
         explanation=(
@@ -207,14 +207,14 @@ SPEC_KINDS = (
             "      - otherwise: halt"
         ),
     ),
-    Kind(
+    DiagnosisKind(
         code="BB038",
         title="no actions, or too many",
         explanation="A behavior has 1 to 200 actions; No Action is there without being listed.",
         example="behaviors:\n  stop:\n    actions: {}",
         mend="behaviors:\n  stop:\n    actions:\n      halt:\n        speed: 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB039",
         title="too large a table",
         explanation=(
@@ -236,7 +236,7 @@ SPEC_KINDS = (
             "      coarse: values(speed, 0, 9)"
         ),
     ),
-    Kind(
+    DiagnosisKind(
         code="BB040",
         title="an input listed twice",
         explanation=(
@@ -246,7 +246,7 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    inputs: [tilted, tilted]",
         mend="behaviors:\n  stop:\n    inputs: [tilted]",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB041",
         title="an input that is no sensor",
         explanation=(
@@ -257,7 +257,7 @@ SPEC_KINDS = (
         example="environment:\n  definitions:\n    high: height > 3\nbehaviors:\n  stop:\n    inputs: [high]",
         mend="environment:\n  sensors:\n    high: height > 3\nbehaviors:\n  stop:\n    inputs: [high]",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB042",
         title="a structure that cannot be",
         explanation=(
@@ -267,7 +267,7 @@ SPEC_KINDS = (
         example="structure: [stop, stop]",
         mend="structure: [stop]",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB043",
         title="a rate that is no probability",
         explanation=(
@@ -277,7 +277,7 @@ SPEC_KINDS = (
         example="design:\n  learning:\n    rate: 2 / episode",
         mend="design:\n  learning:\n    rate: 1 / episode",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB045",
         title="a reward that is not finite",
         explanation=(
@@ -288,7 +288,7 @@ SPEC_KINDS = (
         example="reward:\n  near: 1 / (height - height)",
         mend="reward:\n  near: 1 / max(height, 0.01)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB046",
         title="a table that does not fit",
         explanation=(
@@ -299,14 +299,14 @@ SPEC_KINDS = (
         example='behaviors:\n  stop:\n    table: "1.1"      # reached is false or true',
         mend='behaviors:\n  stop:\n    table: ".1"',
     ),
-    Kind(
+    DiagnosisKind(
         code="BB047",
         title="both rules and a table",
         explanation="A behavior's cells are given by rules or by a table, so one of the two must go.",
         example='behaviors:\n  stop:\n    rules:\n      - otherwise: halt\n    table: ".1"',
         mend="behaviors:\n  stop:\n    rules:\n      - otherwise: halt",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB048",
         title="a design that could not be written",
         explanation=(
@@ -317,7 +317,7 @@ SPEC_KINDS = (
         example="behaviors:\n  stop:\n    inputs:\n      at: values(round(height * 100000), 0, 999999)",
         mend="behaviors:\n  stop:\n    inputs:\n      at: values(round(height * 100), 0, 999)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB049",
         title="a view that cannot be drawn",
         explanation=(

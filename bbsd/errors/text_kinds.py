@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from bbsd.errors.kind import Kind
+from bbsd.errors.kind import DiagnosisKind
 
 TEXT_KINDS = (
-    Kind(
+    DiagnosisKind(
         code="BB001",
         title="the file cannot be read",
         explanation="There is no file of that name, it is a directory, or it may not be opened.",
         example="bbsd check lifting.yml",
         mend="bbsd check lifting.yaml",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB002",
         title="the file is too large",
         explanation="A spec may have 1 MB; the ones people write have a few kilobytes.",
         example="a file of 3 MB",
         mend="Let expressions, such as list(... for i in range(n)), make the large tables.",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB003",
         title="not a text",
         explanation="A spec is text in UTF-8 without control characters other than tabs and line breaks.",
         example="a file saved as UTF-16 or Latin-1",
         mend="Save the file as UTF-8.",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB004",
         title="not YAML",
         explanation=(
@@ -38,7 +38,7 @@ TEXT_KINDS = (
         example="excited: [1, 2][mode] > 0",
         mend='excited: "[1, 2][mode] > 0"',
     ),
-    Kind(
+    DiagnosisKind(
         code="BB005",
         title="a tab where blanks are expected",
         explanation=(
@@ -48,7 +48,7 @@ TEXT_KINDS = (
         example="state:\n\theight: 0",
         mend="state:\n  height: 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB006",
         title="a key given twice",
         explanation=(
@@ -58,7 +58,7 @@ TEXT_KINDS = (
         example="state:\n  speed: 0\n  speed: 1",
         mend="state:\n  speed: 1",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB007",
         title="a merge key",
         explanation=(
@@ -67,14 +67,14 @@ TEXT_KINDS = (
         example="slow: &slow\n  excited: tilted\nfast:\n  <<: *slow",
         mend="slow:\n  excited: &when tilted\nfast:\n  excited: *when",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB008",
         title="a key that is not a text",
         explanation="Keys are names. A number, true, false, null, a list or a mapping can be none.",
         example="place:\n  1: height < 2",
         mend="place:\n  low: height < 2",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB009",
         title="a tag",
         explanation=(
@@ -84,7 +84,7 @@ TEXT_KINDS = (
         example="excited: !tilted",
         mend="excited: not tilted",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB010",
         title="an alias without an anchor",
         explanation=(
@@ -95,7 +95,7 @@ TEXT_KINDS = (
         example="inputs: *seen",
         mend="inputs: &seen [tilted]      # at the first behavior\ninputs: *seen      # at the others",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB011",
         title="too many values",
         explanation=(
@@ -105,28 +105,28 @@ TEXT_KINDS = (
         example="a: &a [x, x, x, x]\nb: &b [*a, *a, *a, *a]\nc: &c [*b, *b, *b, *b]      # and so on",
         mend="Give the value by an expression.",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB012",
         title="nested too deeply",
         explanation="Mappings and lists may stand inside each other 40 levels deep, with aliases expanded.",
         example="a: [[[[...]]]]",
         mend="a: [1, 2, 3]",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB013",
         title="too long a text or number",
         explanation="A text may have 10 000 characters, but for a table, and a number 100.",
         example="mass: 1000000...      # a thousand digits",
         mend="mass: 1e6",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB014",
         title="not a mapping",
         explanation="A spec is a mapping from keys such as bbsd, name and behaviors to their values.",
         example="- behaviors\n- reward",
         mend="bbsd: 1\nname: lifting",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB015",
         title="several documents",
         explanation=(
@@ -135,7 +135,7 @@ TEXT_KINDS = (
         example="name: one\n---\nname: two",
         mend="name: one      # and the other in its own file",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB016",
         title="a comma ends a value",
         explanation=(
@@ -145,7 +145,7 @@ TEXT_KINDS = (
         example="actions: {cap: {speed: min(speed, top)}}",
         mend="actions:\n  cap:\n    speed: min(speed, top)",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB017",
         title="no blank after a colon",
         explanation=(
@@ -154,7 +154,7 @@ TEXT_KINDS = (
         example="state:\n  speed:0",
         mend="state:\n  speed: 0",
     ),
-    Kind(
+    DiagnosisKind(
         code="BB018",
         title="an empty block of text",
         explanation=(

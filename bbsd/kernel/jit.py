@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from bbsd.kernel import functions, streams
-from bbsd.kernel.modules import cache_folder, kernel_digest
+from bbsd.kernel.cache import cache_folder, kernel_digest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
-from bbsd.kernel.modules import CACHE_VARIABLE, cache_root, usable
+from bbsd.kernel.cache import CACHE_VARIABLE, cache_root, usable
 from bbsd.version import __version__
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from bbsd.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from bbsd.errors import Diagnosis, Kind, Place
+    from bbsd.errors import Diagnosis, DiagnosisKind, Place
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 RULES = tuple(KINDS)
@@ -31,7 +31,7 @@ def sarif_log(diagnoses: Iterable[Diagnosis]) -> dict[str, Any]:
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
 
 
-def _rule(kind: Kind) -> dict[str, Any]:
+def _rule(kind: DiagnosisKind) -> dict[str, Any]:
     return {
         "id": kind.code,
         "shortDescription": {"text": kind.title},

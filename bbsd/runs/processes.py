@@ -17,7 +17,7 @@ from importlib import import_module
 from multiprocessing import Pipe, resource_tracker
 from typing import TYPE_CHECKING, Any
 
-from bbsd.kernel.modules import cache_folder
+from bbsd.kernel.cache import cache_folder
 from bbsd.stopping import stop_request_of_process
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from bbsd.errors import Diagnosis
 from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
 from bbsd.text.reading.events import Event, events
 from bbsd.text.reading.keys import entries_of
-from bbsd.text.reading.syntax import explain
+from bbsd.text.reading.syntax import explain_syntax_error
 from bbsd.text.reading.traps import NOTHING, Piece, comma_mistakes, empty_block_mistake, glued, join_at_commas
 from bbsd.text.schema import is_text, meaning
 from bbsd.text.source import MAX_BYTES
@@ -83,7 +83,7 @@ def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
     except _RefusedError as refused:
         return None, [*reading.mistakes, refused.diagnosis]
     except MarkedYAMLError as error:
-        end = _too_deep(source, error) or explain(source, error)
+        end = _too_deep(source, error) or explain_syntax_error(source, error)
         return None, [*(each for each in reading.mistakes if not _same_start(each, end)), end]
 
 

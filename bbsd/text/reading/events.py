@@ -11,9 +11,9 @@ from yamlcore import CCoreLoader
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-Kind: TypeAlias = Literal["stream", "document", "alias", "scalar", "list", "mapping", "end"]
+EventKind: TypeAlias = Literal["stream", "document", "alias", "scalar", "list", "mapping", "end"]
 
-KINDS: dict[type[yaml.Event], Kind] = {
+EVENT_KINDS: dict[type[yaml.Event], EventKind] = {
     yaml.StreamStartEvent: "stream",
     yaml.DocumentStartEvent: "document",
     yaml.AliasEvent: "alias",
@@ -31,7 +31,7 @@ KINDS: dict[type[yaml.Event], Kind] = {
 class Event:
     """One step of the parser; `text` is a scalar's value, `style` what begins it or '' if it is plain."""
 
-    kind: Kind
+    kind: EventKind
     start: int
     end: int
     text: str
@@ -46,7 +46,7 @@ def events(text: str) -> Iterator[Event]:
     for event in yaml.parse(text, Loader=CCoreLoader):
         start, end = event.start_mark, event.end_mark
         yield Event(
-            kind=KINDS[type(event)],
+            kind=EVENT_KINDS[type(event)],
             start=start.index if start else 0,
             end=end.index if end else 0,
             text=getattr(event, "value", ""),

@@ -47,7 +47,7 @@ class _Trouble:
         return Diagnosis("BB004", message, place, advice)
 
 
-def explain(source: Source, error: MarkedYAMLError) -> Diagnosis:
+def explain_syntax_error(source: Source, error: MarkedYAMLError) -> Diagnosis:
     """Return the diagnosis of a text that the parser gave up on."""
     trouble = _trouble(source, error)
     if trouble.character == "\t" or "tab character" in trouble.problem:

@@ -1,13 +1,12 @@
 import os
-import stat
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from bbsd.kernel import modules
-from bbsd.kernel.modules import cache_folder, load_kernel
+from bbsd.kernel.cache import cache_folder
+from bbsd.kernel.modules import load_kernel
 
 SOURCE = """
 from bbsd.kernel.functions import divide
@@ -74,31 +73,6 @@ def test_a_source_that_fails_leaves_no_module() -> None:
     assert not [name for name in sys.modules if name.startswith("broken_")]
 
 
-def test_the_cache_is_the_user_s_alone(cache: Path) -> None:
-    assert cache_folder("kernels") == cache / "kernels"
-    assert stat.S_IMODE(cache.stat().st_mode) == 0o700
-    assert stat.S_IMODE((cache / "kernels").stat().st_mode) == 0o700
-
-
-@pytest.mark.parametrize(
-    ("variables", "expected"),
-    [
-        ({"BBSD_CACHE_DIR": "/a/b", "XDG_CACHE_HOME": "/c"}, "/a/b"),
-        ({"XDG_CACHE_HOME": "/c"}, "/c/bbsd"),
-        ({"XDG_CACHE_HOME": "relative", "HOME": "/home/ann"}, "/home/ann/.cache/bbsd"),
-        ({"HOME": "/home/ann"}, "/home/ann/.cache/bbsd"),
-    ],
-)
-def test_where_the_cache_is(
-    variables: dict[str, str], expected: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in ("BBSD_CACHE_DIR", "XDG_CACHE_HOME"):
-        monkeypatch.delenv(name, raising=False)
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
-    assert modules.cache_root() == Path(expected)
-
-
 def test_an_unwritable_cache_is_replaced_for_the_process_with_one_notice(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -109,13 +83,6 @@ def test_an_unwritable_cache_is_replaced_for_the_process_with_one_notice(
     assert cache_folder("kernels") == Path(os.environ["BBSD_CACHE_DIR"]) / "kernels"
     (notice,) = capsys.readouterr().err.splitlines()
     assert notice.startswith(f"bbsd: cannot keep compiled code in {tmp_path}/file/cache; set BBSD_CACHE_DIR")
-
-
-def test_a_cache_that_others_can_write_is_not_used(cache: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    cache.mkdir()
-    cache.chmod(0o777)
-    assert cache not in cache_folder("kernels").parents
-    assert "cannot keep compiled code" in capsys.readouterr().err
 
 
 def test_plain_kernels_need_no_numba() -> None:

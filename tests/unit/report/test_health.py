@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from bbsd.kernel import modules
+from bbsd.kernel import cache, modules
 from bbsd.report import health
 
 
@@ -47,13 +47,13 @@ def test_numba_that_does_not_compile_is_wrong(monkeypatch):
 
 def test_a_cache_that_others_can_write_is_wrong(monkeypatch, tmp_path):
     tmp_path.chmod(0o777)
-    monkeypatch.setenv(modules.CACHE_VARIABLE, str(tmp_path))
+    monkeypatch.setenv(cache.CACHE_VARIABLE, str(tmp_path))
     assert "cannot be used" in finding("cache").problem
 
 
 def test_a_cache_is_where_it_is_said_to_be_and_as_large_as_it_is(monkeypatch, tmp_path):
     root = tmp_path / "cache"
-    monkeypatch.setenv(modules.CACHE_VARIABLE, str(root))
+    monkeypatch.setenv(cache.CACHE_VARIABLE, str(root))
     (root / "kernels").mkdir(parents=True, mode=0o700)
     root.chmod(0o700)
     (root / "kernels" / "a").write_bytes(bytes(2_000_000))

@@ -1,0 +1,44 @@
+import stat
+from pathlib import Path
+
+import pytest
+
+from bbsd.kernel.cache import cache_folder, cache_root
+
+
+@pytest.fixture(autouse=True)
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("BBSD_CACHE_DIR", str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+def test_the_cache_is_the_user_s_alone(root: Path) -> None:
+    assert cache_folder("kernels") == root / "kernels"
+    assert stat.S_IMODE(root.stat().st_mode) == 0o700
+    assert stat.S_IMODE((root / "kernels").stat().st_mode) == 0o700
+
+
+@pytest.mark.parametrize(
+    ("variables", "expected"),
+    [
+        ({"BBSD_CACHE_DIR": "/a/b", "XDG_CACHE_HOME": "/c"}, "/a/b"),
+        ({"XDG_CACHE_HOME": "/c"}, "/c/bbsd"),
+        ({"XDG_CACHE_HOME": "relative", "HOME": "/home/ann"}, "/home/ann/.cache/bbsd"),
+        ({"HOME": "/home/ann"}, "/home/ann/.cache/bbsd"),
+    ],
+)
+def test_where_the_cache_is(
+    variables: dict[str, str], expected: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("BBSD_CACHE_DIR", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    assert cache_root() == Path(expected)
+
+
+def test_a_cache_that_others_can_write_is_not_used(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    root.mkdir()
+    root.chmod(0o777)
+    assert root not in cache_folder("kernels").parents
+    assert "cannot keep compiled code" in capsys.readouterr().err
