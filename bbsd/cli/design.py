@@ -71,7 +71,7 @@ def design(
     loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides or ())
     with _workers(0 if dry_run or resume else min(runs, jobs) - 1) as ready:
         from bbsd import api
-        from bbsd.report.progress import progress
+        from bbsd.report.progress import generation_listener
 
         if dry_run:
             starting = time.process_time() + (DRAWING if plot else 0.0)
@@ -87,7 +87,7 @@ def design(
             leave_now(INTERRUPTED)
 
         try:
-            with progress(console, quiet=quiet) as listener:
+            with generation_listener(console, quiet=quiet) as listener:
                 designed = api.design(
                     loaded,
                     seed=seed,

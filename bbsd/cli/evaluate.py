@@ -80,9 +80,9 @@ def evaluate(
     loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
     if expect_at_least is not None:
         _require_expectations(loaded)
-    from bbsd.report.progress import episodes_lived
+    from bbsd.report.progress import episode_listener
 
-    with episodes_lived(error_console()) as listener:
+    with episode_listener(error_console()) as listener:
         evaluation = bbsd.evaluate(
             loaded,
             episodes=episodes,

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, TypeAlias
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from bbsd.api import Designed
     from bbsd.evaluation import Evaluation, Interval
-    from bbsd.report.shown import DesignResult
 
 Plain: TypeAlias = "Mapping[str, Plain] | Sequence[Plain] | str | int | float | bool | None"
 
@@ -39,7 +39,7 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
     return plain
 
 
-def design_plain(designed: DesignResult, seed: int, runs: int) -> dict[str, Plain]:
+def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
     """Return what a design found, and for which seed and number of runs."""
     return {
         "architecture": str(designed.architecture),

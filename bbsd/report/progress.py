@@ -1,6 +1,6 @@
-"""How far a design or an evaluation is, told while it goes on.
+"""Progress of a design or an evaluation, shown while it runs.
 
-Live lines on a terminal; elsewhere a plain line of a design now and then.
+A terminal shows live lines; any other output gets a plain line for each tenth of a run.
 """
 
 from __future__ import annotations
@@ -14,86 +14,85 @@ from bbsd.report.numbers import column
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from rich import progress as rich_progress
     from rich.console import Console
-    from rich.progress import Progress, TaskID
 
-    from bbsd.report.shown import Generation
+    from bbsd.api import Progress
 
-    Listener = Callable[[Generation], None]
-
-LINES = 10
-"""Plain lines of a run."""
+PLAIN_LINES = 10
+"""The number of plain lines for a run."""
 CURVE_WIDTH = 16
+"""The number of characters of the curve, at most."""
 REST_WIDTH = 76
-"""Characters of the live line without the curve."""
+"""The number of characters of a live line without its curve."""
 
 
 @contextmanager
-def progress(console: Console, *, quiet: bool = False) -> Iterator[Listener]:
-    """Give a function to call after each generation, that shows it on the console; quiet shows nothing."""
+def generation_listener(console: Console, *, quiet: bool = False) -> Iterator[Callable[[Progress], None]]:
+    """Yield a function to call after each generation; it shows the progress on the console unless `quiet`."""
     if quiet:
-        yield lambda _generation: None
+        yield lambda _progress: None
     elif console.is_terminal:
-        with _live(console) as line:
-            yield _Lines(line).show
+        with _live_display(console) as display:
+            yield _LiveLines(display).show
     else:
-        yield lambda generation: _print_tenths(console, generation)
+        yield lambda progress: _print_tenths(console, progress)
 
 
 @contextmanager
-def episodes_lived(console: Console) -> Iterator[Callable[[int, int], None]]:
-    """Give a function to call with how many episodes were lived, and of how many; only a terminal shows it."""
+def episode_listener(console: Console) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function to call with the numbers of finished and of all episodes; only a terminal shows them."""
     if not console.is_terminal:
         yield lambda _done, _total: None
         return
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn(compact=True))
-    with Progress(*columns, console=console, transient=True) as line:
-        task = line.add_task("compiling", total=None)
+    with Progress(*columns, console=console, transient=True) as display:
+        task = display.add_task("compiling", total=None)
 
         def show(done: int, total: int) -> None:
-            line.update(task, description=f"{done:,} of {total:,} episodes", completed=done, total=total)
+            display.update(task, description=f"{done:,} of {total:,} episodes", completed=done, total=total)
 
         yield show
 
 
-def standing(generation: Generation) -> str:
-    """Return how far a run is and how well its agents do, as one plain line."""
-    return f"{position(generation)}: {means(generation)}"
+def progress_line(progress: Progress) -> str:
+    """Return the generation that ended and the fitness of its agents, as one plain line."""
+    return f"{_position(progress)}: {_fitness(progress)}"
 
 
-def position(generation: Generation) -> str:
+def _position(progress: Progress) -> str:
     """Return the generation, and the run where there are several."""
-    run = f"run {generation.run}/{generation.runs}, " if generation.runs > 1 else ""
-    return f"{run}generation {generation.generation}/{generation.generations}"
+    run = f"run {progress.run}/{progress.runs}, " if progress.runs > 1 else ""
+    return f"{run}generation {progress.generation}/{progress.generations}"
 
 
-def _phase(generation: Generation) -> str:
-    """Return what goes on now that a generation ended: after a run's last one, the race for its answer."""
-    if generation.generation < generation.generations:
-        return position(generation)
-    return f"run {generation.run}/{generation.runs}, final race" if generation.runs > 1 else "final race"
+def _phase(progress: Progress) -> str:
+    """Return the generation that ended; after a run's last one, the final race that follows it."""
+    if progress.generation < progress.generations:
+        return _position(progress)
+    return f"run {progress.run}/{progress.runs}, final race" if progress.runs > 1 else "final race"
 
 
-def means(generation: Generation) -> str:
+def _fitness(progress: Progress) -> str:
     """Return the fitness of a generation's agents."""
-    mean, best, lifetime = column([generation.mean, generation.best, generation.lifetime])
+    mean, best, lifetime = column([progress.mean, progress.best, progress.lifetime])
     return f"mean {mean}, best {best}, lifetime {lifetime}"
 
 
-def _print_tenths(console: Console, generation: Generation) -> None:
-    done, total = generation.generation, generation.generations
-    if done * LINES // total > (done - 1) * LINES // total:
-        console.print(standing(generation), markup=False, highlight=False, soft_wrap=True)
+def _print_tenths(console: Console, progress: Progress) -> None:
+    done, total = progress.generation, progress.generations
+    if done * PLAIN_LINES // total > (done - 1) * PLAIN_LINES // total:
+        console.print(progress_line(progress), markup=False, highlight=False, soft_wrap=True)
 
 
-def _live(console: Console) -> Progress:
+def _live_display(console: Console) -> rich_progress.Progress:
     from rich.progress import Progress, TextColumn, TimeRemainingColumn
 
     return Progress(
         TextColumn("{task.description}", markup=False),
-        TextColumn("{task.fields[means]}", markup=False),
+        TextColumn("{task.fields[fitness]}", markup=False),
         TextColumn("{task.fields[curve]}", style="cyan", markup=False),
         TimeRemainingColumn(compact=True),
         console=console,
@@ -101,45 +100,49 @@ def _live(console: Console) -> Progress:
     )
 
 
-class _Lines:
-    """A line for each run that is going on. All of them tell the time that is left for all runs."""
+class _LiveLines:
+    """A live line for each run in progress; each shows the time that is left for all runs together."""
 
-    def __init__(self, live: Progress) -> None:
-        self._live = live
-        self._tasks: dict[int, TaskID] = {}
+    def __init__(self, display: rich_progress.Progress) -> None:
+        self._display = display
+        self._tasks: dict[int, rich_progress.TaskID] = {}
         self._free = [self._new_line()]
-        self._reached: dict[int, int] = {}
+        self._generations: dict[int, int] = {}
         self._histories: dict[int, list[float]] = {}
-        self._curve_width = max(0, min(CURVE_WIDTH, live.console.width - REST_WIDTH))
+        self._curve_width = max(0, min(CURVE_WIDTH, display.console.width - REST_WIDTH))
 
-    def show(self, generation: Generation) -> None:
+    def show(self, progress: Progress) -> None:
         """Show a generation that ended."""
-        if generation.run not in self._tasks:
-            self._tasks[generation.run] = self._line_for(generation)
-        self._reached[generation.run] = generation.generation
-        history = self._histories.setdefault(generation.run, [])
-        history.append(generation.mean)
-        self._live.update(
-            self._tasks[generation.run],
-            description=_phase(generation),
-            means=means(generation),
+        if progress.run not in self._tasks:
+            self._tasks[progress.run] = self._line_for(progress)
+        self._generations[progress.run] = progress.generation
+        history = self._histories.setdefault(progress.run, [])
+        history.append(progress.mean)
+        self._display.update(
+            self._tasks[progress.run],
+            description=_phase(progress),
+            fitness=_fitness(progress),
             curve=sparkline(history, self._curve_width),
         )
-        self._tell_time(generation)
+        self._update_time_left(progress)
 
-    def _line_for(self, generation: Generation) -> TaskID:
-        """The line of a run that came to its end, since whoever begins a run has ended one; at first a new one."""
-        ended = [run for run in self._tasks if self._reached[run] == generation.generations]
+    def _line_for(self, progress: Progress) -> rich_progress.TaskID:
+        """Return the line of a run that ended, since a process begins a run after ending another; else a new one."""
+        ended = [run for run in self._tasks if self._generations[run] == progress.generations]
         if ended:
             self._free.append(self._tasks.pop(ended[0]))
         return self._free.pop() if self._free else self._new_line()
 
-    def _new_line(self) -> TaskID:
-        return self._live.add_task("compiling", total=None, means="", curve="")
+    def _new_line(self) -> rich_progress.TaskID:
+        return self._display.add_task("compiling", total=None, fitness="", curve="")
 
-    def _tell_time(self, generation: Generation) -> None:
-        """Runs are begun in their order, so those before a run that was not told of were done before."""
-        each, begun = generation.generations, range(1, max(self._reached) + 1)
-        done = sum(self._reached.get(run, each) for run in begun)
+    def _update_time_left(self, progress: Progress) -> None:
+        """Give every line the work done in all runs, from which rich estimates the time left.
+
+        Runs begin in order, so a run that nothing was reported of, before one that was, ended earlier: before
+        a stopped design was resumed.
+        """
+        per_run, started = progress.generations, range(1, max(self._generations) + 1)
+        done = sum(self._generations.get(run, per_run) for run in started)
         for task in self._tasks.values():
-            self._live.update(task, total=generation.runs * each, completed=done)
+            self._display.update(task, total=progress.runs * per_run, completed=done)

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from rich.console import RenderableType
 
+    from bbsd.api import Designed
     from bbsd.evaluation import Evaluation
-    from bbsd.report.shown import DesignResult
 
 BAR_WIDTH = 24
 INTERVAL = "95 % interval"
@@ -42,7 +42,7 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
     return Group(*_separated(parts))
 
 
-def design_table(designed: DesignResult) -> RenderableType:
+def design_table(designed: Designed) -> RenderableType:
     """Return the structure from top to bottom, and the design's fitness beside that of random agents."""
     path = escape(str(designed.architecture))
     # A path is copied as a whole, so no terminal is too narrow for it.
@@ -124,7 +124,7 @@ def _structure(structure: Sequence[str]) -> Table:
     return table
 
 
-def _fitness(designed: DesignResult) -> Table:
+def _fitness(designed: Designed) -> Table:
     """All numbers have the same decimals, so that they can be compared at a glance."""
     rows = {
         "fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "fresh episode")),

@@ -2,23 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from bbsd.api import Designed
 from bbsd.evaluation import Evaluation, Interval, Trace
-
-
-@dataclass(frozen=True)
-class Designed:
-    architecture: Path
-    structure: tuple[str, ...]
-    evaluation: Evaluation
-    lifetime: Interval
-    random: Interval
-    seconds: float
 
 
 @pytest.fixture
@@ -38,6 +28,7 @@ def evaluation():
 def designed(evaluation):
     return Designed(
         Path("runs/lifting-seed0/architecture.yaml"),
+        Path("runs/lifting-seed0"),
         ("stop_at_goal", "push_more"),
         evaluation,
         lifetime=Interval(299.2, 20.0, 296.2, 302.2, 200),
