@@ -28,8 +28,7 @@ from bbsd.evaluation import (
     weighted_evaluation,
 )
 from bbsd.evaluation import trace as trace_episode
-from bbsd.explanation import Explanation
-from bbsd.explanation import explain as explain_architecture
+from bbsd.explanation import Explanation, explain_architecture
 from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.loading import Loaded

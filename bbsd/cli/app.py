@@ -15,7 +15,7 @@ from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.explain import explain
 from bbsd.cli.fmt import fmt
-from bbsd.cli.mistakes import told
+from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
@@ -67,4 +67,4 @@ def main() -> None:
         never_fail_to_encode(sys.stdout, sys.stderr)
         app(prog_name="bbsd")
     except Exception as error:  # noqa: BLE001 - raised again unless it is a user's mistake
-        sys.exit(told(error))
+        sys.exit(show_mistake(error))

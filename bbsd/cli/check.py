@@ -16,7 +16,7 @@ from bbsd.report.numbers import count
 from bbsd.report.plain import json_text
 
 
-class Format(StrEnum):
+class MistakeFormat(StrEnum):
     """How mistakes are printed: for people, for programs, beside a pull request's lines, for code scanning."""
 
     TEXT = "text"
@@ -32,7 +32,7 @@ def check(
             metavar="SPEC...", help="Specs, YAML files.", show_default=False, autocompletion=spec_files
         ),
     ] = None,
-    form: Annotated[Format, typer.Option("--format", help="How to print it.")] = Format.TEXT,
+    form: Annotated[MistakeFormat, typer.Option("--format", help="How to print it.")] = MistakeFormat.TEXT,
     code: Annotated[
         str | None,
         typer.Option("--describe", metavar="CODE", help="Describe a kind of mistake, such as BB006."),
@@ -50,10 +50,10 @@ def check(
         raise typer.BadParameter("give a SPEC, or --describe CODE")
 
 
-def _check(specs: list[Path], form: Format) -> None:
+def _check(specs: list[Path], form: MistakeFormat) -> None:
     found = [(spec, *_checked(spec)) for spec in specs]
     errors = [error for _, _, error in found if error]
-    if form is Format.TEXT:
+    if form is MistakeFormat.TEXT:
         show("\n".join(_verdict(*each) for each in found))
     else:
         show(_machine_text([each for error in errors for each in error.diagnoses], form))
@@ -61,13 +61,13 @@ def _check(specs: list[Path], form: Format) -> None:
         raise typer.Exit(MISTAKE)
 
 
-def _machine_text(diagnoses: Sequence[Diagnosis], form: Format) -> str:
+def _machine_text(diagnoses: Sequence[Diagnosis], form: MistakeFormat) -> str:
     from bbsd.report.github import github_text
     from bbsd.report.sarif import sarif_log
 
-    if form is Format.GITHUB:
+    if form is MistakeFormat.GITHUB:
         return github_text(diagnoses)
-    return json_text(sarif_log(diagnoses) if form is Format.SARIF else render_json(diagnoses))
+    return json_text(sarif_log(diagnoses) if form is MistakeFormat.SARIF else render_json(diagnoses))
 
 
 def _checked(spec: Path) -> tuple[str, SpecError | None]:

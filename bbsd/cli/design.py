@@ -11,7 +11,7 @@ import typer
 
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
-from bbsd.report.figures import curves, require_figure
+from bbsd.report.figures import draw_curves, require_figure
 from bbsd.report.plain import design_plain, json_text
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ def _draw_curves(designed: "Designed") -> None:
     """Draw the metrics beside them. The answer was told before: matplotlib takes longer than a small design."""
     from bbsd.runs.folder import Folder
 
-    curves(Folder(designed.folder).lines(), designed.folder / CURVES)
+    draw_curves(Folder(designed.folder).lines(), designed.folder / CURVES)
 
 
 def _show(designed: "Designed", seed: int, runs: int, *, as_json: bool) -> None:

@@ -8,10 +8,10 @@ import typer
 
 import bbsd
 from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
-from bbsd.cli.output import error_console, has_blocks, require_writable, say, show, show_table
+from bbsd.cli.output import error_console, has_blocks, require_writable_file, say, show, show_table
 from bbsd.errors import UsageError
 from bbsd.report.csv_text import csv_text
-from bbsd.report.figures import episode, require_figure
+from bbsd.report.figures import draw_episode, require_figure
 from bbsd.report.numbers import column
 from bbsd.report.plain import evaluation_plain, json_text
 
@@ -114,7 +114,7 @@ def _require_outputs(trace: Path | None, plot: Path | None) -> None:
         require_figure(plot)
     for path in (trace, plot):
         if path:
-            require_writable(path)
+            require_writable_file(path)
 
 
 def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
@@ -131,7 +131,7 @@ def _write_episode(loaded: "Loaded", seed: int, trace: Path | None, plot: Path |
     if trace:
         trace.write_text(csv_text(lived), encoding="utf-8")
     if plot:
-        episode(lived, loaded.spec, plot)
+        draw_episode(lived, loaded.spec, plot)
 
 
 def _too_low(evaluation: "Evaluation", wanted: float | None) -> list[str]:

@@ -1,16 +1,16 @@
 """`bbsd explain`."""
 
 import bbsd
-from bbsd.cli.options import AsFormat, Format, Overrides, Seed, SpecFile
+from bbsd.cli.options import AsFormat, Overrides, ResultFormat, Seed, SpecFile
 from bbsd.cli.output import show
 from bbsd.report.plain import json_text
 
 
 def explain(
-    spec: SpecFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = Format.TEXT
+    spec: SpecFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = ResultFormat.TEXT
 ) -> None:
     """Say what a design does, layer by layer."""
-    from bbsd.explanation import as_text
+    from bbsd.explanation import explanation_text
 
     explanation = bbsd.explain(spec, seed=seed, overrides=overrides or ())
-    show(json_text(explanation.to_plain()) if form is Format.JSON else as_text(explanation))
+    show(json_text(explanation.to_plain()) if form is ResultFormat.JSON else explanation_text(explanation))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.mistakes import told
+from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.options import spec_files
 from bbsd.cli.output import say, show
 from bbsd.errors import SpecError, escape
@@ -49,7 +49,7 @@ def _formatted(spec: Path, *, check: bool, diff: bool) -> int:
         source = Source.read(spec)
         styled = _styled(source)
     except SpecError as error:
-        return told(error)
+        return show_mistake(error)
     if styled == source.text:
         return 0
     if diff:

@@ -1,4 +1,4 @@
-"""Errors that a user can mend, told without a traceback."""
+"""Errors that a user can correct, shown without a traceback."""
 
 import sys
 
@@ -9,7 +9,7 @@ MISTAKE = 2
 """The exit code for what the user gave and can mend."""
 
 
-def told(error: Exception) -> int:
+def show_mistake(error: Exception) -> int:
     """Tell of an error and return the exit code; one that is our own mistake is raised again."""
     if isinstance(error, SpecError):
         say(diagnoses_text(error, color=has_color(sys.stderr)))

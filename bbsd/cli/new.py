@@ -13,7 +13,7 @@ from bbsd.cli.options import SUFFIXES
 from bbsd.cli.output import say, show
 from bbsd.errors import UsageError, escape
 
-LONGEST_NAME = 100
+MAX_NAME_LENGTH = 100
 
 
 class Template(StrEnum):
@@ -70,7 +70,7 @@ def _write(path: Path, template: Template) -> None:
     from bbsd.text import Source, read, replace_blocks
 
     document = read(Source(template, template_text(template)))
-    _create(path, replace_blocks(document, {("name",): path.stem[:LONGEST_NAME]}))
+    _create(path, replace_blocks(document, {("name",): path.stem[:MAX_NAME_LENGTH]}))
     schema = path.with_name(SCHEMA_FILE)
     if not schema.exists():
         _create(schema, _schema_text())

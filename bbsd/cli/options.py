@@ -61,11 +61,11 @@ Lanes = Annotated[
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 
 
-class Format(StrEnum):
+class ResultFormat(StrEnum):
     """How a result is printed."""
 
     TEXT = "text"
     JSON = "json"
 
 
-AsFormat = Annotated[Format, typer.Option("--format", help="How to print it.")]
+AsFormat = Annotated[ResultFormat, typer.Option("--format", help="How to print it.")]

@@ -78,7 +78,7 @@ def has_color(stream: TextIO) -> bool:
     return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
-def require_writable(path: Path) -> None:
+def require_writable_file(path: Path) -> None:
     """Raise OSError if no file can be written at a path, before time is spent on what it is to hold."""
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))

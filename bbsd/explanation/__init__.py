@@ -1,7 +1,14 @@
 """An architecture in words: its rules, who controls where, and what never happens."""
 
-from bbsd.explanation.explain import Explanation, LayerInWords, RuleInWords, explain
-from bbsd.explanation.text import as_text
-from bbsd.explanation.vocabulary import Entry
+from bbsd.explanation.layers import Explanation, LayerInWords, RuleInWords, explain_architecture
+from bbsd.explanation.text import explanation_text
+from bbsd.explanation.vocabulary import GlossaryEntry
 
-__all__ = ["Entry", "Explanation", "LayerInWords", "RuleInWords", "as_text", "explain"]
+__all__ = [
+    "Explanation",
+    "GlossaryEntry",
+    "LayerInWords",
+    "RuleInWords",
+    "explain_architecture",
+    "explanation_text",
+]

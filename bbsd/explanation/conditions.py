@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.rules import Inputs
 
 
-def condition(box: Box, inputs: Inputs) -> str:
+def condition_text(box: Box, inputs: Inputs) -> str:
     """What is true in a box: `place is lowest and tilted`; '' where that is always so."""
     said = [
         _said(name, chosen, cells)
@@ -31,17 +31,21 @@ def condition(box: Box, inputs: Inputs) -> str:
     return " and ".join(said)
 
 
-def places(where: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
+def condition_texts(where: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
     """Conditions that together hold in all cells of `where` and in no other that is not `allowed`; both (n_cells,).
 
     None where they would name more cells than anybody reads.
     """
     values = np.where(where, 0, np.where(allowed, FREE, KEEP))
     boxes = cover(values, sizes_of(inputs))
-    return () if n_words_of(boxes, inputs) > MOST_WORDS else tuple(condition(box, inputs) for box, _ in boxes)
+    return (
+        ()
+        if n_words_of(boxes, inputs) > MOST_WORDS
+        else tuple(condition_text(box, inputs) for box, _ in boxes)
+    )
 
 
-def listed(words: Sequence[str], last: str) -> str:
+def join_words(words: Sequence[str], last: str) -> str:
     """`a, b or c`."""
     return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
@@ -54,9 +58,11 @@ def _said(name: str, chosen: tuple[int, ...], cells: Labels) -> str:
         _words(sorted(set(range(len(cells))).difference(chosen)), cells) if _is_most(chosen, cells) else []
     )
     if not missing or len(missing) >= len(words):
-        return f"{name} is {listed(words, 'or')}"
+        return f"{name} is {join_words(words, 'or')}"
     return (
-        f"{name} is not {missing[0]}" if len(missing) == 1 else f"{name} is neither {listed(missing, 'nor')}"
+        f"{name} is not {missing[0]}"
+        if len(missing) == 1
+        else f"{name} is neither {join_words(missing, 'nor')}"
     )
 
 

@@ -6,21 +6,21 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
-from bbsd.explanation.conditions import listed
+from bbsd.explanation.conditions import join_words
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.explanation.explain import Explanation, LayerInWords, RuleInWords
-    from bbsd.explanation.vocabulary import Entry
+    from bbsd.explanation.layers import Explanation, LayerInWords, RuleInWords
+    from bbsd.explanation.vocabulary import GlossaryEntry
 
 WIDTH = 80
 LONGEST_NAME = 24
 MOST_PLACES = 6
 
 
-def as_text(explanation: Explanation) -> str:
+def explanation_text(explanation: Explanation) -> str:
     """The explanation in lines of 80 columns, without color; it ends with a line break."""
     blocks = [
         _heading(explanation),
@@ -40,7 +40,7 @@ def _heading(explanation: Explanation) -> list[str]:
         lines += _wrapped("The highest layer that has an action for the situation controls.")
     if explanation.left_out:
         verb = "are" if len(explanation.left_out) > 1 else "is"
-        lines += _wrapped(f"{listed(explanation.left_out, 'and')} {verb} not in the structure.")
+        lines += _wrapped(f"{join_words(explanation.left_out, 'and')} {verb} not in the structure.")
     return lines
 
 
@@ -67,7 +67,7 @@ def _rules(layer: LayerInWords) -> list[str]:
     if layer.counted:
         n_cells = sum(each.cells for each in layer.counted)
         counts = [f"{each.decision} in {each.cells:,}" for each in layer.counted]
-        return [f"a table of {n_cells:,} cells: {listed(counts, 'and')}"]
+        return [f"a table of {n_cells:,} cells: {join_words(counts, 'and')}"]
     *special, last = layer.rules
     decisions = {rule.decision for rule in special}
     if not special:
@@ -96,7 +96,7 @@ def _remarks(layer: LayerInWords) -> list[str]:
     """What the layers above always prevent, said in the shorter way."""
     if not layer.overruled_by:
         return []
-    by = listed(layer.overruled_by, "or")
+    by = join_words(layer.overruled_by, "or")
     if not layer.cells:
         one = "one of " if len(layer.overruled_by) > 1 else ""
         return [f"Never controls: {one}{by} above always does."]
@@ -120,7 +120,7 @@ def _control(explanation: Explanation) -> list[str]:
     if not others:
         return ["Nobody ever controls." if first == "nobody" else f"{first} always controls."]
     shares = [f"{first} controls {cells}", *(f"{name} {count}" for name, count in others)]
-    text = f"Of the {explanation.joint_size} situations that the behaviors can tell apart, {listed(shares, 'and')}."
+    text = f"Of the {explanation.joint_size} situations that the behaviors can tell apart, {join_words(shares, 'and')}."
     return [*_wrapped(f"{text} (This counts situations, not time.)"), *_nobody(explanation.nobody)]
 
 
@@ -136,7 +136,7 @@ def _nobody(places: Sequence[str]) -> list[str]:
     ]
 
 
-def _glossary(title: str, entries: Sequence[Entry]) -> list[list[str]]:
+def _glossary(title: str, entries: Sequence[GlossaryEntry]) -> list[list[str]]:
     width = min(max((len(entry.word) for entry in entries), default=0), LONGEST_NAME)
     lines = [
         line

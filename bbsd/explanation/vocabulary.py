@@ -11,14 +11,14 @@ if TYPE_CHECKING:
     from bbsd.language.written import Expression
 
 
-class Entry(NamedTuple):
+class GlossaryEntry(NamedTuple):
     """A word, and what it stands for."""
 
     word: str
     meaning: str
 
 
-def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
+def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:
     """The inputs of some behaviors, each once, in the order in which they are met."""
     return _entries(
         (behavior, name, meaning)
@@ -27,7 +27,7 @@ def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
     )
 
 
-def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[Entry, ...]:
+def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:
     """The actions of some behaviors, each once, in the order in which they are met."""
     return _entries(
         (behavior, name, _mapping(sets))
@@ -59,13 +59,13 @@ def _text(expression: Expression) -> str:
     return " ".join(expression.text.split())
 
 
-def _entries(found: Iterable[tuple[str, str, str]]) -> tuple[Entry, ...]:
+def _entries(found: Iterable[tuple[str, str, str]]) -> tuple[GlossaryEntry, ...]:
     """The words with their meanings; a word that has several says whose it is."""
     by_word: dict[str, dict[str, list[str]]] = {}
     for behavior, word, meaning in found:
         by_word.setdefault(word, {}).setdefault(meaning, []).append(behavior)
     return tuple(
-        Entry(_whose(word, behaviors, meanings), meaning)
+        GlossaryEntry(_whose(word, behaviors, meanings), meaning)
         for word, meanings in by_word.items()
         for meaning, behaviors in meanings.items()
     )

@@ -30,9 +30,9 @@ def _command(diagnosis: Diagnosis) -> str:
         "title": diagnosis.code,
     }
     written = ",".join(f"{name}={value.translate(IN_PROPERTY)}" for name, value in properties.items())
-    return f"::error {written}::{message(diagnosis).translate(IN_MESSAGE)}"
+    return f"::error {written}::{message_text(diagnosis).translate(IN_MESSAGE)}"
 
 
-def message(diagnosis: Diagnosis) -> str:
+def message_text(diagnosis: Diagnosis) -> str:
     """Return what is wrong and what to do about it, in one text."""
     return escape("; ".join(filter(None, (diagnosis.message, diagnosis.advice))))

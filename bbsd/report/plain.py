@@ -27,13 +27,13 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
         "episodes": evaluation.episodes,
         "agents": evaluation.agents,
         "exact": evaluation.exact,
-        "steps": finite(evaluation.steps),
-        "reward_terms": {name: finite(value) for name, value in evaluation.reward_terms.items()},
-        "control_share": {name: finite(value) for name, value in evaluation.control_share.items()},
+        "steps": finite_or_none(evaluation.steps),
+        "reward_terms": {name: finite_or_none(value) for name, value in evaluation.reward_terms.items()},
+        "control_share": {name: finite_or_none(value) for name, value in evaluation.control_share.items()},
     }
     if evaluation.expectation_share:
         shares = evaluation.expectation_share
-        plain["expectation_share"] = {name: finite(value) for name, value in shares.items()}
+        plain["expectation_share"] = {name: finite_or_none(value) for name, value in shares.items()}
     if evaluation.not_finite:
         plain["not_finite"] = dict(evaluation.not_finite)
     return plain
@@ -48,7 +48,7 @@ def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
         "lifetime": interval_plain(designed.lifetime),
         "random": interval_plain(designed.random),
         "structure": list(designed.structure),
-        "seconds": finite(designed.seconds),
+        "seconds": finite_or_none(designed.seconds),
         "seed": seed,
         "runs": runs,
     }
@@ -57,12 +57,12 @@ def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
 def interval_plain(interval: Interval) -> dict[str, Plain]:
     """Return a mean with its standard deviation and its 95 % interval."""
     return {
-        "mean": finite(interval.mean),
-        "sd": finite(interval.sd),
-        "ci95": [finite(interval.low), finite(interval.high)],
+        "mean": finite_or_none(interval.mean),
+        "sd": finite_or_none(interval.sd),
+        "ci95": [finite_or_none(interval.low), finite_or_none(interval.high)],
     }
 
 
-def finite(value: float) -> float | None:
+def finite_or_none(value: float) -> float | None:
     """Return the value, None if it is infinite or NaN."""
     return value if isfinite(value) else None

@@ -43,7 +43,7 @@ WIDTH = 110
 MARKED = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
-def filled(document: str) -> str:
+def regenerate(document: str) -> str:
     """Return a document with what stands between its marks written anew; KeyError for an unknown mark."""
     return MARKED.sub(lambda found: f"{found[1]}\n{SECTIONS[found[2]]()}\n{found[3]}", document)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from bbsd.errors import KINDS
-from bbsd.report.github import message
+from bbsd.report.github import message_text
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def _result(diagnosis: Diagnosis) -> dict[str, Any]:
         "ruleId": diagnosis.code,
         "ruleIndex": RULES.index(diagnosis.code),
         "level": "error",
-        "message": {"text": message(diagnosis)},
+        "message": {"text": message_text(diagnosis)},
         "locations": [{"physicalLocation": _location(diagnosis.place)}],
     }
 

@@ -114,7 +114,7 @@ def _part(part: type[Part]) -> Schema:
 
 
 def _field(part: type[Part], key: str, field: FieldInfo) -> Schema:
-    schema = _ruled(READ_OTHERWISE.get((part, key)) or _kind(field.annotation), field.metadata)
+    schema = _with_bounds(KEY_SCHEMAS.get((part, key)) or _kind(field.annotation), field.metadata)
     if not field.is_required():
         schema = {**_or_nothing(schema), **_default(field.default)}
     default = f" Default: {schema['default']}" if "default" in schema else ""  # editors show no other
@@ -140,7 +140,7 @@ def _default(value: object) -> Schema:
     return {}
 
 
-def _ruled(schema: Schema, rules: Iterable[object]) -> Schema:
+def _with_bounds(schema: Schema, rules: Iterable[object]) -> Schema:
     """Return a schema with the bounds that a model sets."""
     for rule in rules:
         match rule:
@@ -161,7 +161,7 @@ def _kind(annotation: Any) -> Schema:  # noqa: ANN401 - a type, of any kind
     """Return what may stand where a model has this type."""
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
-        return _read_by(arguments[1:], READERS) or _kind(arguments[0])
+        return _read_by(arguments[1:], READER_SCHEMAS) or _kind(arguments[0])
     if origin is Literal:
         return {"enum": [*arguments]}
     if origin is dict:
@@ -172,12 +172,12 @@ def _kind(annotation: Any) -> Schema:  # noqa: ANN401 - a type, of any kind
         return {"anyOf": [_kind(each) for each in arguments]}
     if isinstance(annotation, type) and issubclass(annotation, Part):
         return _part(annotation)
-    return KINDS[annotation]
+    return TYPE_SCHEMAS[annotation]
 
 
 def _mapping(key: Any, value: Any) -> Schema:  # noqa: ANN401 - types, of any kind
     """Return a mapping from names of the spec's own; nothing written is an empty one."""
-    name = _read_by(get_args(key)[1:], NAMES)
+    name = _read_by(get_args(key)[1:], NAME_SCHEMAS)
     return {
         "type": ["object", "null"],
         **({"propertyNames": name} if name else {}),
@@ -192,7 +192,7 @@ def _read_by(validators: Iterable[object], readers: Mapping[object, Schema]) -> 
     return next((readers[each] for each in functions if each in readers), None)
 
 
-KINDS: Mapping[object, Schema] = {
+TYPE_SCHEMAS: Mapping[object, Schema] = {
     Any: _ref("constant"),
     Expression: SCALAR,
     float: {"type": "number"},
@@ -200,23 +200,23 @@ KINDS: Mapping[object, Schema] = {
     str: {"type": "string"},
     NoneType: {"type": "null"},
 }
-READERS: Mapping[object, Schema] = {written.cell: SCALAR}
-NAMES: Mapping[object, Schema] = {
+READER_SCHEMAS: Mapping[object, Schema] = {written.cell: SCALAR}
+NAME_SCHEMAS: Mapping[object, Schema] = {
     written.name: _ref("name"),
     written.value_name: _ref("value_name"),
     written.definition_key: _ref("definition"),
 }
-PLACE: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 2, "maxItems": 3}, SCALAR]}
-CORNERS: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 4, "maxItems": 4}, SCALAR]}
-DECISION = _word_or_name(models.NO_ACTION_TEXT, models.OPEN)
-CELLS: Schema = {"anyOf": [SCALAR, {"type": "array", "items": SCALAR, "minItems": 1}]}
-READ_OTHERWISE: Mapping[tuple[type[Part], str], Schema] = {
-    (models.When, "when"): {**_mapping(str, str), "additionalProperties": CELLS},
-    (models.When, "do"): DECISION,
-    (models.Otherwise, "otherwise"): DECISION,
+PLACE_SCHEMA: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 2, "maxItems": 3}, SCALAR]}
+CORNERS_SCHEMA: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 4, "maxItems": 4}, SCALAR]}
+DECISION_SCHEMA = _word_or_name(models.NO_ACTION_TEXT, models.OPEN)
+CELLS_SCHEMA: Schema = {"anyOf": [SCALAR, {"type": "array", "items": SCALAR, "minItems": 1}]}
+KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
+    (models.When, "when"): {**_mapping(str, str), "additionalProperties": CELLS_SCHEMA},
+    (models.When, "do"): DECISION_SCHEMA,
+    (models.Otherwise, "otherwise"): DECISION_SCHEMA,
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
-    (view.View, "at"): PLACE,
-    (view.View, "area"): CORNERS,
-    (view.View, "marks"): {**_mapping(written.NameText, str), "additionalProperties": PLACE},
+    (view.View, "at"): PLACE_SCHEMA,
+    (view.View, "area"): CORNERS_SCHEMA,
+    (view.View, "marks"): {**_mapping(written.NameText, str), "additionalProperties": PLACE_SCHEMA},
 }
 """Keys whose values are not what their type says: the model makes one of several ways to write them."""

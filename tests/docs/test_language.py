@@ -8,7 +8,7 @@ import pytest
 from bbsd.language.loading import check
 from bbsd.language.meaning import mean
 from bbsd.language.models import Spec
-from bbsd.report.reference import filled
+from bbsd.report.reference import regenerate
 from bbsd.text import Source, read
 
 PAGE = Path(__file__).parents[2] / "docs" / "language.md"
@@ -39,9 +39,9 @@ def merged(base, more):
 def test_generated_parts_are_up_to_date(request):
     text = PAGE.read_text(encoding="utf-8")
     if request.config.getoption("--update-golden"):
-        PAGE.write_text(filled(text), encoding="utf-8", newline="\n")
+        PAGE.write_text(regenerate(text), encoding="utf-8", newline="\n")
     else:
-        assert filled(text) == text
+        assert regenerate(text) == text
 
 
 @pytest.mark.parametrize(("code", "text"), snippets())

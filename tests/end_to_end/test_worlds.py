@@ -12,7 +12,7 @@ from bbsd.architecture import Architecture, given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import agents_of, interval, returns_of, trace
 from bbsd.kernel.keys import keys
-from bbsd.report.figures import episode
+from bbsd.report.figures import draw_episode
 from bbsd.report.figures.files import color
 from bbsd.runs.run import generations, start
 from bbsd.solver.random_agents import random_agents
@@ -51,7 +51,7 @@ def test_the_hand_made_design_earns_more_than_random_agents(world):
 def test_a_world_is_drawn_from_above_in_the_colors_of_who_controls(world, tmp_path):
     loaded = bbsd.load(SPECS / f"{world}_hand.yaml", overrides=["environment.steps=15"])
     lived = bbsd.trace(loaded)
-    episode(lived, loaded.spec, tmp_path / "world.svg")
+    draw_episode(lived, loaded.spec, tmp_path / "world.svg")
     text = (tmp_path / "world.svg").read_text()
     assert f"<!-- from above, {len(lived.steps)} steps -->" in text
     in_control = {name for robot in lived.controlling for name in robot} - {"nobody"}

@@ -1,7 +1,7 @@
 """Figures as files, the same bytes for the same data."""
 
-from bbsd.report.figures.curves import curves
-from bbsd.report.figures.episode import episode
+from bbsd.report.figures.curves import draw_curves
+from bbsd.report.figures.episode import draw_episode
 from bbsd.report.figures.files import FigureError, require_figure
 
-__all__ = ["FigureError", "curves", "episode", "require_figure"]
+__all__ = ["FigureError", "draw_curves", "draw_episode", "require_figure"]

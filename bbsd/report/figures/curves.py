@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from bbsd.report.figures.files import color, drawn, legend, marker
+from bbsd.report.figures.files import color, legend, marker, panels_in_file
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -22,13 +22,13 @@ FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
 """Solid is the fitness (14), dashed is over whole lifetimes, as in the paper."""
 
 
-def curves(metrics: Sequence[Line], path: Path) -> None:
+def draw_curves(metrics: Sequence[Line], path: Path) -> None:
     """Draw the lines of `metrics.jsonl`: fitness above, diversity of each behavior's pool below.
 
     With several runs a line is the mean of the runs, and each run's mean fitness is drawn faintly. Raises
     FigureError for a kind of file that cannot be drawn, and OSError where it cannot be written.
     """
-    with drawn(path, 7.5, [3.4, 1.8]) as (fitness, diversity):
+    with panels_in_file(path, 7.5, [3.4, 1.8]) as (fitness, diversity):
         _draw_fitness(fitness, metrics)
         _draw_diversity(diversity, metrics)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.report.figures.files import color, drawn, legend
-from bbsd.report.figures.panels import MAX_PANELS, draw_control, draw_lines, panels_of, rows_of
+from bbsd.report.figures.files import color, legend, panels_in_file
+from bbsd.report.figures.panels import MAX_PANELS, behavior_rows, draw_control, draw_lines, panels_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,7 +17,7 @@ PANEL, ROW = 1.35, 0.3
 """Heights in inches: of a value, and of a behavior."""
 
 
-def episode(trace: Trace, spec: Spec, path: Path) -> None:
+def draw_episode(trace: Trace, spec: Spec, path: Path) -> None:
     """Draw the robots' states, what all of them sensed alike, and which behavior controlled each robot.
 
     The values are those after each step: a panel for each state with a line for each robot, one for each
@@ -35,9 +35,9 @@ def episode(trace: Trace, spec: Spec, path: Path) -> None:
 
 def _draw_lines_only(trace: Trace, spec: Spec, path: Path) -> None:
     shown = dict(list(panels_of(trace, spec).items())[:MAX_PANELS])
-    behaviors = rows_of(trace, spec)
+    behaviors = behavior_rows(trace, spec)
     heights = [PANEL] * len(shown) + [0.7 + ROW * len(behaviors)]
-    with drawn(path, 8.0, heights) as panels:
+    with panels_in_file(path, 8.0, heights) as panels:
         for panel, (name, lines) in zip(panels, shown.items(), strict=False):
             draw_lines(panel, trace, name, lines)
         draw_control(panels[-1], trace, behaviors, [color(robot) for robot in range(trace.robots)])

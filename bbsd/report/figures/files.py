@@ -61,17 +61,17 @@ def color(index: int) -> str:
 
 
 @contextmanager
-def drawn(path: Path, width: float, heights: list[float]) -> Iterator[list[Axes]]:
+def panels_in_file(path: Path, width: float, heights: list[float]) -> Iterator[list[Axes]]:
     """Give panels below each other that share the horizontal axis; write the file when they are drawn.
 
     Width and heights are inches. Raises FigureError where that cannot be done.
     """
-    with drawn_whole(path, width, sum(heights)) as figure:
-        yield stacked(figure, heights)
+    with figure_in_file(path, width, sum(heights)) as figure:
+        yield stack_panels(figure, heights)
 
 
 @contextmanager
-def drawn_whole(path: Path, width: float, height: float) -> Iterator[Figure]:
+def figure_in_file(path: Path, width: float, height: float) -> Iterator[Figure]:
     """Give a figure of that size in inches, and write the file when it is drawn; FigureError as `drawn`."""
     require_figure(path)
     from matplotlib import style
@@ -83,7 +83,7 @@ def drawn_whole(path: Path, width: float, height: float) -> Iterator[Figure]:
         _save(figure, path)
 
 
-def stacked(figure: FigureBase, heights: list[float]) -> list[Axes]:
+def stack_panels(figure: FigureBase, heights: list[float]) -> list[Axes]:
     """Return panels below each other that share the horizontal axis."""
     panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
     return list(panels[:, 0])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.report.figures.plane import FAINT, INK, OVER_PATHS, PAPER, draw_circle, finite, halo
+from bbsd.report.figures.plane import FAINT, INK, OVER_PATHS, PAPER, draw_circle, drawable, halo
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -24,7 +24,7 @@ NEAR, LETTER = 0.02, 0.016
 """How far a label is from what it names, and how wide its letters are, in parts of the width shown."""
 
 
-def draw_mark(panel: Axes, name: str, track: Floats, taken: Floats, limits: Limits) -> None:
+def draw_mark(panel: Axes, name: str, track: Floats, occupied: Floats, limits: Limits) -> None:
     """Draw where a mark is at the end, and how it came there: a trail if it moves, else the places it rested at.
 
     `track` is (n_moments, 2 or 3); the name is written where it is far from the points that are `taken`.
@@ -35,11 +35,11 @@ def draw_mark(panel: Axes, name: str, track: Floats, taken: Floats, limits: Limi
     if is_moving:
         panel.plot(*points.T, color=FAINT, lw=TRAIL, ls=(0, (3, 1.5)), zorder=1.5)
     earlier = points[:1] if is_moving else points[:-1][moved]
-    panel.plot(*finite(earlier).T, ls="", marker="D", ms=6, mfc=PAPER, mec=FAINT, zorder=OVER_PATHS)
+    panel.plot(*drawable(earlier).T, ls="", marker="D", ms=6, mfc=PAPER, mec=FAINT, zorder=OVER_PATHS)
     if np.isfinite(last[:2]).all():
         panel.plot(*last[:2], marker="D", ms=10, mfc=FILL, mec=INK, zorder=OVER_PATHS)
         draw_circle(panel, last, fill=False, ec=FAINT, lw=0.9, ls=(0, (2, 2)))
-        _write(panel, name, last[:2], taken, limits)
+        _write(panel, name, last[:2], occupied, limits)
 
 
 def _moved(points: Floats) -> npt.NDArray[np.bool_]:
@@ -49,10 +49,10 @@ def _moved(points: Floats) -> npt.NDArray[np.bool_]:
     return found
 
 
-def _write(panel: Axes, text: str, point: Floats, taken: Floats, limits: Limits) -> None:
+def _write(panel: Axes, text: str, point: Floats, occupied: Floats, limits: Limits) -> None:
     """Write beside a point, on the side with most room."""
     sides = [(side, above) for above in (1, -1) for side in (1, -1)]
-    side, above = max(sides, key=partial(_room, point, len(text), taken, limits))
+    side, above = max(sides, key=partial(_room, point, len(text), occupied, limits))
     panel.annotate(
         text,
         (point[0], point[1]),
@@ -66,7 +66,7 @@ def _write(panel: Axes, text: str, point: Floats, taken: Floats, limits: Limits)
     )
 
 
-def _room(point: Floats, length: int, taken: Floats, limits: Limits, sides: tuple[int, int]) -> float:
+def _room(point: Floats, length: int, occupied: Floats, limits: Limits, sides: tuple[int, int]) -> float:
     """Return how far a label to a side of a point is from all that is taken; -1 where it crosses a border."""
     along = np.linspace(NEAR, NEAR + LETTER * length, 5)
     off = np.stack([along, np.full(5, NEAR)], axis=1) * sides * limits.signs * limits.width
@@ -74,4 +74,4 @@ def _room(point: Floats, length: int, taken: Floats, limits: Limits, sides: tupl
     low, high = np.sort(limits, axis=1).T
     if not ((label > low) & (label < high)).all():
         return -1.0
-    return float(np.hypot(*(taken[:, None] - label).reshape(-1, 2).T).min())
+    return float(np.hypot(*(occupied[:, None] - label).reshape(-1, 2).T).min())

@@ -75,7 +75,7 @@ def draw_lines(panel: Axes, trace: Trace, name: str, lines: Lines, *, in_gray: b
     panel.set_title(name)
 
 
-def rows_of(trace: Trace, spec: Spec) -> list[str]:
+def behavior_rows(trace: Trace, spec: Spec) -> list[str]:
     """Return who can be in control, the highest layer first, and nobody where that happened."""
     named = [name for name in spec.structure or spec.behaviors if name in spec.behaviors]
     in_control = {name for robot in trace.controlling for name in robot}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bbsd.report.figures.plane import INK, OVER_PATHS, PAPER, draw_circle, finite, halo
+from bbsd.report.figures.plane import INK, OVER_PATHS, PAPER, draw_circle, drawable, halo
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -56,7 +56,7 @@ def draw_path(
         short = [
             points[-1] for who, points in stretches if who == name and _length(points) < SHORT * limits.width
         ]
-        dots = finite(np.reshape(short, (-1, 2)))
+        dots = drawable(np.reshape(short, (-1, 2)))
         panel.plot(*dots.T, ls="", marker="o", ms=DOT, mew=0, color=colors[name], zorder=3)
 
 

@@ -47,7 +47,7 @@ def limits_of(scene: Scene) -> Limits:
     """Return the limits that show everything: what is around, and where anything was."""
     corners = _corners(scene)
     around = [scene.circles[:, :2] + side * scene.circles[:, 2:] for side in (-1, 1)]
-    points = finite(np.concatenate([corners, *around, *_tracks(scene)]))
+    points = drawable(np.concatenate([corners, *around, *_tracks(scene)]))
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
     margin = MARGIN * float(max(high - low)) or 1.0
     axes = [(float(a) - margin, float(b) + margin) for a, b in zip(low, high, strict=True)]
@@ -56,12 +56,12 @@ def limits_of(scene: Scene) -> Limits:
     return Limits(x, y)
 
 
-def taken(scene: Scene) -> Floats:
+def occupied(scene: Scene) -> Floats:
     """Return the points at which robots and marks ever were, and circles are; (n, 2)."""
-    return finite(np.concatenate([*_tracks(scene), scene.circles[:, :2]]))
+    return drawable(np.concatenate([*_tracks(scene), scene.circles[:, :2]]))
 
 
-def finite(points: Floats) -> Floats:
+def drawable(points: Floats) -> Floats:
     """Return those points that can be drawn."""
     return points[np.isfinite(points).all(axis=-1)]
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Name
 from bbsd.language.written import expressions_in
-from bbsd.report.figures.files import color, drawn_whole, legend, stacked
+from bbsd.report.figures.files import color, figure_in_file, legend, stack_panels
 from bbsd.report.figures.marks import draw_mark
-from bbsd.report.figures.panels import MAX_PANELS, NOBODY, draw_control, draw_lines, panels_of, rows_of
+from bbsd.report.figures.panels import MAX_PANELS, NOBODY, behavior_rows, draw_control, draw_lines, panels_of
 from bbsd.report.figures.paths import draw_ends, draw_path, legend_of
-from bbsd.report.figures.plane import draw_surroundings, limits_of, taken
+from bbsd.report.figures.plane import draw_surroundings, limits_of, occupied
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -36,14 +36,14 @@ LEGEND_COLUMNS = 3
 
 def draw_with_scene(trace: Trace, spec: Spec, scene: Scene, path: Path) -> None:
     """Draw the scene on the left, and what it does not show on the right; colors are those of the behaviors."""
-    seen, behaviors, order = _names_seen(spec.view), rows_of(trace, spec), [*spec.behaviors]
+    seen, behaviors, order = _names_seen(spec.view), behavior_rows(trace, spec), [*spec.behaviors]
     unseen = [(name, lines) for name, lines in panels_of(trace, spec).items() if name not in seen]
     colors = {name: NOBODY_COLOR if name == NOBODY else color(order.index(name)) for name in behaviors}
     heights = _heights(scene, len(unseen[:MAX_PANELS]), len(behaviors))
-    with drawn_whole(path, SCENE + BESIDE, sum(heights)) as figure:
+    with figure_in_file(path, SCENE + BESIDE, sum(heights)) as figure:
         left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[SCENE, BESIDE])[0]
         draw_scene(left.subplots(), trace, scene, colors)
-        *panels, last = stacked(right, heights)
+        *panels, last = stack_panels(right, heights)
         for panel, (name, lines) in zip(panels, unseen, strict=False):
             draw_lines(panel, trace, name, lines, in_gray=True)
         draw_control(last, trace, behaviors, colors)
@@ -83,7 +83,7 @@ def draw_scene(panel: Axes, trace: Trace, scene: Scene, colors: Mapping[str, str
     for places, controlling in zip(scene.places, trace.controlling, strict=True):
         draw_path(panel, places, controlling, colors, limits)
     for name, track in scene.marks.items():
-        draw_mark(panel, name, track, taken(scene), limits)
+        draw_mark(panel, name, track, occupied(scene), limits)
     for robot in range(trace.robots):
         draw_ends(panel, scene, robot, limits)
     in_control = {name for robot in trace.controlling for name in robot}

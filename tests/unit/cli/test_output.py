@@ -5,7 +5,7 @@ from io import BytesIO, StringIO, TextIOWrapper
 
 import pytest
 
-from bbsd.cli.output import has_blocks, has_color, never_fail_to_encode, require_writable, show
+from bbsd.cli.output import has_blocks, has_color, never_fail_to_encode, require_writable_file, show
 
 
 class Terminal(StringIO):
@@ -46,19 +46,19 @@ def test_a_stream_writes_what_its_encoding_lacks_as_escapes():
 
 
 def test_a_file_can_be_written_where_its_folder_is(tmp_path):
-    require_writable(tmp_path / "new.csv")
+    require_writable_file(tmp_path / "new.csv")
     (tmp_path / "old.csv").write_text("")
-    require_writable(tmp_path / "old.csv")
+    require_writable_file(tmp_path / "old.csv")
 
 
 @pytest.mark.parametrize(("name", "error"), [("", IsADirectoryError), ("nowhere/new.csv", FileNotFoundError)])
 def test_where_no_file_can_be_written_is_found_beforehand(tmp_path, name, error):
     with pytest.raises(error) as raised:
-        require_writable(tmp_path / name)
+        require_writable_file(tmp_path / name)
     assert raised.value.filename
 
 
 def test_a_file_that_may_not_be_written_is_found_beforehand(tmp_path, monkeypatch):
     monkeypatch.setattr("os.access", lambda path, mode: False)
     with pytest.raises(PermissionError):
-        require_writable(tmp_path / "new.csv")
+        require_writable_file(tmp_path / "new.csv")

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.explanation.conditions import condition, listed, places
+from bbsd.explanation.conditions import condition_text, condition_texts, join_words
 
 INPUTS = {
     "tilted": ("false", "true"),
@@ -32,18 +32,18 @@ ALL = {name: tuple(range(len(cells))) for name, cells in INPUTS.items()}
     ],
 )
 def test_a_box_is_a_condition_in_words(chosen, words):
-    assert condition(tuple((ALL | chosen).values()), INPUTS) == words
+    assert condition_text(tuple((ALL | chosen).values()), INPUTS) == words
 
 
 def test_places_name_all_cells_wanted_and_no_others():
     where = np.array([[0, 1], [0, 1], [0, 0]], bool).ravel()
     inputs = {"place": INPUTS["place"], "tilted": INPUTS["tilted"]}
-    assert places(where, np.zeros(6, bool), inputs) == ("place is not middle and tilted",)
+    assert condition_texts(where, np.zeros(6, bool), inputs) == ("place is not middle and tilted",)
 
 
 def test_places_reach_over_what_is_allowed_where_that_is_shorter():
     where, allowed = np.array([1, 1, 0], bool), np.array([0, 0, 1], bool)
-    assert places(where, allowed, {"place": INPUTS["place"]}) == ("",)
+    assert condition_texts(where, allowed, {"place": INPUTS["place"]}) == ("",)
 
 
 @given(st.data())
@@ -51,10 +51,10 @@ def test_there_is_a_place_if_and_only_if_a_cell_is_wanted(data):
     inputs = dict(data.draw(st.lists(st.sampled_from([*INPUTS.items()]), unique=True, max_size=2)))
     size = prod(len(cells) for cells in inputs.values())
     where = np.array(data.draw(st.lists(st.booleans(), min_size=size, max_size=size)))
-    assert bool(places(where, ~where, inputs)) == where.any()
+    assert bool(condition_texts(where, ~where, inputs)) == where.any()
 
 
 def test_words_are_listed():
-    assert listed(["a"], "or") == "a"
-    assert listed(["a", "b"], "or") == "a or b"
-    assert listed(["a", "b", "c"], "and") == "a, b and c"
+    assert join_words(["a"], "or") == "a"
+    assert join_words(["a", "b"], "or") == "a or b"
+    assert join_words(["a", "b", "c"], "and") == "a, b and c"

@@ -2,19 +2,21 @@ import numpy as np
 import pytest
 
 from bbsd.architecture import Architecture
-from bbsd.explanation import as_text, explain
+from bbsd.explanation import explain_architecture, explanation_text
 from tests.unit.architecture.designs import SHIPPED, meaning_of, random_architecture, shipped, small
-from tests.unit.explanation.test_explain import LARGE, UPPER_NEAR
+from tests.unit.explanation.test_layers import LARGE, UPPER_NEAR
 
 
 def text_of(behaviors, tables, structure):
     tables = tuple(np.array(table, np.uint8) for table in tables)
-    return as_text(explain(meaning_of(small(behaviors)), Architecture(tables, np.array(structure))))
+    return explanation_text(
+        explain_architecture(meaning_of(small(behaviors)), Architecture(tables, np.array(structure)))
+    )
 
 
 def random_text(name, seed):
     meaning = meaning_of(shipped(name))
-    return as_text(explain(meaning, random_architecture(meaning, seed)))
+    return explanation_text(explain_architecture(meaning, random_architecture(meaning, seed)))
 
 
 def test_the_hand_made_design(golden):
@@ -105,7 +107,9 @@ def test_what_steers_a_terminal_is_written_out():
     meaning = meaning_of(
         shipped("object_lifting_hand").replace("name: object-lifting-by-hand", 'name: "a\\eb"')
     )
-    assert as_text(explain(meaning, random_architecture(meaning, 0))).startswith("a\\x1bb: 5 layers")
+    assert explanation_text(explain_architecture(meaning, random_architecture(meaning, 0))).startswith(
+        "a\\x1bb: 5 layers"
+    )
 
 
 def test_what_a_behavior_expects_is_said_last():

@@ -3,7 +3,7 @@ import pytest
 from bbsd.errors import KINDS
 from bbsd.language.base import Part
 from bbsd.language.view import View
-from bbsd.report.reference import BLOCKS, SECTIONS, filled, keys_text, mistakes_text
+from bbsd.report.reference import BLOCKS, SECTIONS, keys_text, mistakes_text, regenerate
 
 
 def subclasses(part):
@@ -13,13 +13,13 @@ def subclasses(part):
 def test_what_stands_between_marks_is_written_anew_and_the_rest_stays():
     document = "before\n<!-- generated: draws -->\nold\n<!-- end -->\nafter\n"
     new = f"before\n<!-- generated: draws -->\n\n{SECTIONS['draws']()}\n<!-- end -->\nafter\n"
-    assert filled(document) == new
-    assert filled(new) == new
+    assert regenerate(document) == new
+    assert regenerate(new) == new
 
 
 def test_an_unknown_mark_is_an_error():
     with pytest.raises(KeyError, match="colors"):
-        filled("<!-- generated: colors -->\n<!-- end -->")
+        regenerate("<!-- generated: colors -->\n<!-- end -->")
 
 
 def test_every_part_of_a_spec_is_described():

@@ -4,7 +4,7 @@ from math import exp
 
 import pytest
 
-from bbsd.report.figures import FigureError, curves
+from bbsd.report.figures import FigureError, draw_curves
 from bbsd.report.figures.curves import _points
 
 
@@ -27,12 +27,12 @@ def metrics(runs, generations=4):
 def test_the_same_metrics_give_the_same_bytes(tmp_path, suffix):
     first, second = tmp_path / f"first{suffix}", tmp_path / f"second{suffix}"
     for path in (first, second):
-        curves(metrics(2), path)
+        draw_curves(metrics(2), path)
     assert first.read_bytes() == second.read_bytes()
 
 
 def test_a_drawing_names_its_lines_and_holds_neither_date_nor_program(tmp_path):
-    curves(metrics(1), tmp_path / "curves.svg")
+    draw_curves(metrics(1), tmp_path / "curves.svg")
     text = (tmp_path / "curves.svg").read_text()
     for words in ("mean of the agents", "best agent", "mean lifetime fitness", "push", "stop", "generation"):
         assert f"<!-- {words} -->" in text
@@ -42,7 +42,7 @@ def test_a_drawing_names_its_lines_and_holds_neither_date_nor_program(tmp_path):
 
 @pytest.mark.parametrize("lines", [[], metrics(1, generations=1)])
 def test_runs_that_have_hardly_begun_can_be_drawn(tmp_path, lines):
-    curves(lines, tmp_path / "curves.png")
+    draw_curves(lines, tmp_path / "curves.png")
     assert (tmp_path / "curves.png").stat().st_size > 1000
 
 
@@ -54,10 +54,10 @@ def test_several_runs_are_drawn_as_their_mean_even_if_one_is_not_done():
 
 def test_a_kind_of_file_that_cannot_be_drawn_is_refused(tmp_path):
     with pytest.raises(FigureError, match=r"curves\.gif: a figure is a \.png, \.svg, \.pdf file"):
-        curves(metrics(1), tmp_path / "curves.gif")
+        draw_curves(metrics(1), tmp_path / "curves.gif")
 
 
 def test_without_matplotlib_it_says_how_to_install_it(tmp_path, monkeypatch):
     monkeypatch.setattr("bbsd.report.figures.files.find_spec", lambda name: None)
     with pytest.raises(FigureError, match=r'pip install "bbsd\[plot\]"'):
-        curves(metrics(1), tmp_path / "curves.png")
+        draw_curves(metrics(1), tmp_path / "curves.png")

@@ -6,8 +6,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from bbsd.language.models import Spec
-from bbsd.report.figures import episode
-from bbsd.report.figures.panels import _stretches, draw_control, failures, panels_of, rows_of
+from bbsd.report.figures import draw_episode
+from bbsd.report.figures.panels import _stretches, behavior_rows, draw_control, failures, panels_of
 
 
 @pytest.fixture
@@ -43,8 +43,8 @@ def test_a_state_has_a_line_for_each_robot_and_a_sensor_one_if_all_sense_alike(t
 
 
 def test_who_can_be_in_control_is_listed_from_the_highest_layer_down(trace, spec):
-    assert rows_of(trace, spec) == ["stop_at_goal", "push_more", "nobody"]
-    assert rows_of(replace(trace, controlling=[["push_more"]]), spec) == ["stop_at_goal", "push_more"]
+    assert behavior_rows(trace, spec) == ["stop_at_goal", "push_more", "nobody"]
+    assert behavior_rows(replace(trace, controlling=[["push_more"]]), spec) == ["stop_at_goal", "push_more"]
 
 
 def test_stretches_of_control_cover_every_step_once():
@@ -73,7 +73,7 @@ def test_nothing_is_crossed_out_where_all_that_is_expected_holds(trace):
 
 def test_the_same_episode_gives_the_same_bytes(trace, spec, tmp_path):
     for name in ("first.svg", "second.svg"):
-        episode(trace, spec, tmp_path / name)
+        draw_episode(trace, spec, tmp_path / name)
     text = (tmp_path / "first.svg").read_text()
     assert text == (tmp_path / "second.svg").read_text()
     for words in ("height", "tilt", "in control", "stop_at_goal", "robot 1", "step"):
@@ -83,10 +83,10 @@ def test_the_same_episode_gives_the_same_bytes(trace, spec, tmp_path):
 def test_an_episode_of_one_step_can_be_drawn(trace, spec, tmp_path):
     values = {slot: line[:1] for slot, line in trace.values.items()}
     short = replace(trace, steps=trace.steps[:1], values=values, controlling=[["push_more"], ["nobody"]])
-    episode(short, spec, tmp_path / "episode.png")
+    draw_episode(short, spec, tmp_path / "episode.png")
     assert (tmp_path / "episode.png").stat().st_size > 1000
 
 
 def test_an_episode_without_numbers_to_show_still_shows_who_was_in_control(trace, spec, tmp_path):
-    episode(replace(trace, values={}), spec, tmp_path / "episode.svg")
+    draw_episode(replace(trace, values={}), spec, tmp_path / "episode.svg")
     assert "<!-- in control -->" in (tmp_path / "episode.svg").read_text()

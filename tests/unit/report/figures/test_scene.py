@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from bbsd.evaluation import Scene
 from bbsd.language.models import Spec
-from bbsd.report.figures import episode
+from bbsd.report.figures import draw_episode
 from bbsd.report.figures.marks import _moved, _room, draw_mark
 from bbsd.report.figures.paths import _angle, draw_ends, stretches_of
 from bbsd.report.figures.plane import Limits, limits_of
@@ -106,7 +106,7 @@ def test_what_a_view_shows_by_its_name_alone_needs_no_panel(spec):
 
 def test_a_scene_shows_paths_marks_and_control_in_the_same_colors(seen, spec, tmp_path):
     for name in ("first.svg", "second.svg"):
-        episode(seen, spec, tmp_path / name)
+        draw_episode(seen, spec, tmp_path / name)
     text = (tmp_path / "first.svg").read_text()
     assert text == (tmp_path / "second.svg").read_text()
     for words in (
@@ -163,7 +163,7 @@ def test_places_that_are_not_finite_are_left_out(seen, spec, tmp_path):
     marks = {"gone": np.full((4, 3), nan), "late": np.array([[nan, 1], [nan, 1], [2, 2], [2, 2]])}
     strange = replace(seen.scene, places=places, headings=np.full((2, 4), nan), marks=marks,
                       circles=np.array([[1, 1, nan], [nan, 1, 1]]), area=np.array([0, 0, nan, 1]))  # fmt: skip
-    episode(replace(seen, scene=strange), spec, tmp_path / "strange.svg")
+    draw_episode(replace(seen, scene=strange), spec, tmp_path / "strange.svg")
     text = (tmp_path / "strange.svg").read_text()
     assert "<!-- from above, 3 steps -->" in text
     assert "nan" not in text.lower()

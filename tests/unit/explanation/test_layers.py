@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bbsd.architecture import Architecture, joint_space, policy
-from bbsd.explanation import RuleInWords, explain
+from bbsd.explanation import RuleInWords, explain_architecture
 from tests.unit.architecture.designs import SHIPPED, meaning_of, random_architecture, shipped, small
 
 TWO_INPUTS = """
@@ -17,7 +17,7 @@ TWO_INPUTS = """
 
 def explained(behaviors, tables, structure):
     tables = tuple(np.array(table, np.uint8) for table in tables)
-    return explain(meaning_of(small(behaviors)), Architecture(tables, np.array(structure)))
+    return explain_architecture(meaning_of(small(behaviors)), Architecture(tables, np.array(structure)))
 
 
 def test_layers_come_from_the_highest_down():
@@ -94,7 +94,7 @@ def test_a_rule_of_which_any_cell_may_control_is_not_called_overruled():
 def test_the_joint_cells_are_shared_out(name, seed):
     meaning = meaning_of(shipped(name))
     architecture = random_architecture(meaning, seed)
-    explanation, space = explain(meaning, architecture), joint_space(meaning)
+    explanation, space = explain_architecture(meaning, architecture), joint_space(meaning)
     control = policy(space, architecture)
     assert sum(layer.cells for layer in explanation.layers) + explanation.nobody_cells == space.joint_size
     assert explanation.nobody_cells == np.count_nonzero(control == 0)
@@ -103,7 +103,7 @@ def test_the_joint_cells_are_shared_out(name, seed):
 
 def test_an_explanation_is_plain_data():
     meaning = meaning_of(shipped("object_lifting_hand"))
-    plain = json.loads(json.dumps(explain(meaning, random_architecture(meaning, 0)).to_plain()))
+    plain = json.loads(json.dumps(explain_architecture(meaning, random_architecture(meaning, 0)).to_plain()))
     assert plain["layers"][1]["rules"][0] == {
         "decision": "slower",
         "where": "place is highest and tilted",

@@ -11,8 +11,8 @@ from bbsd.architecture.boxes import first_match
 from bbsd.architecture.policy import controlling, decisions, joint_space, own_cells
 from bbsd.architecture.rules import boxes_of, n_words_of, sizes_of
 from bbsd.architecture.written import MOST_WORDS
-from bbsd.explanation.conditions import condition, places
-from bbsd.explanation.vocabulary import Entry, actions_of, inputs_of
+from bbsd.explanation.conditions import condition_text, condition_texts
+from bbsd.explanation.vocabulary import GlossaryEntry, actions_of, inputs_of
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
@@ -83,8 +83,8 @@ class Explanation:
     joint_size: int
     nobody: tuple[str, ...]
     nobody_cells: int | None
-    inputs: tuple[Entry, ...]
-    actions: tuple[Entry, ...]
+    inputs: tuple[GlossaryEntry, ...]
+    actions: tuple[GlossaryEntry, ...]
 
     def to_plain(self) -> dict[str, Any]:
         """The same as plain data that JSON can hold."""
@@ -100,7 +100,7 @@ class _Control:
     prevented_by: tuple[int, ...]
 
 
-def explain(meaning: Meaning, architecture: Architecture) -> Explanation:
+def explain_architecture(meaning: Meaning, architecture: Architecture) -> Explanation:
     """Explain an architecture of a spec. The counts are of joint cells, not of time spent in them."""
     space = joint_space(meaning)
     order = architecture.structure.tolist()
@@ -114,7 +114,7 @@ def explain(meaning: Meaning, architecture: Architecture) -> Explanation:
         ),
         left_out=tuple(name for index, name in enumerate(behaviors) if index not in order),
         joint_size=space.joint_size,
-        nobody=places(nobody, np.zeros_like(nobody), space.dimensions) if nobody.any() else (),
+        nobody=condition_texts(nobody, np.zeros_like(nobody), space.dimensions) if nobody.any() else (),
         nobody_cells=None if control is None else int(nobody.sum()),
         inputs=inputs_of(meaning.spec, [behaviors[behavior] for behavior in reversed(order)]),
         actions=actions_of(meaning.spec, [behaviors[behavior] for behavior in reversed(order)]),
@@ -143,8 +143,8 @@ def _layer(
         expects=_said(written.expects),
         rules=rules,
         counted=() if rules else _counted(module, table),
-        overruled=places(lost & ~whole, whole | ~control.acts, module.inputs),
-        effective=places(control.controls, ~control.acts, module.inputs) if lost.any() else (),
+        overruled=condition_texts(lost & ~whole, whole | ~control.acts, module.inputs),
+        effective=condition_texts(control.controls, ~control.acts, module.inputs) if lost.any() else (),
         overruled_by=tuple(names[other] for other in above),
         cells=None if controls is None else int(np.count_nonzero(controls == behavior)),
     )
@@ -184,7 +184,9 @@ def _rules(
         return (), whole
     cells = np.arange(len(table)).reshape(sizes)
     elsewhere = np.flatnonzero(first_match([box for box, _ in boxes], sizes) < 0)
-    held = [(condition(box, module.inputs), decision, cells[np.ix_(*box)].ravel()) for box, decision in boxes]
+    held = [
+        (condition_text(box, module.inputs), decision, cells[np.ix_(*box)].ravel()) for box, decision in boxes
+    ]
     for where, decision, matched in [*held, ("", default, elsewhere)]:
         acting = matched[(table[matched] == decision) & control.acts[matched]]
         overruled = bool(acting.size and not control.controls[acting].any())
