@@ -1,8 +1,8 @@
-"""What can be said of a mistake in a spec: where it is, what it is, what to do, and how that is shown."""
+"""Diagnoses of a spec: where a mistake is, what it is, what to do about it, and how that is shown."""
 
 from bbsd.errors.catalog import KINDS, describe
 from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
-from bbsd.errors.kind import DiagnosisKind
+from bbsd.errors.kind import DiagnosisKind, Severity
 from bbsd.errors.rendering import escape, render_json, render_text
 from bbsd.errors.suggestion import did_you_mean
 from bbsd.errors.usage import UsageError
@@ -13,6 +13,7 @@ __all__ = [
     "DiagnosisKind",
     "Lines",
     "Place",
+    "Severity",
     "SpecError",
     "UsageError",
     "describe",

@@ -1,23 +1,40 @@
-"""All kinds of mistakes by their stable codes; each layer lists the kinds that it finds in one module."""
+"""All kinds of diagnoses by their stable codes; each layer lists the kinds that it finds in a module of its own.
+
+A new kind goes into its layer's module and takes the number after the highest one in use: BB070, ..., BB099, BB100, and
+so on. A number says nothing about the layer or the severity, and the number of a removed kind is not used again.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from bbsd.errors.expression_kinds import EXPRESSION_KINDS
+from bbsd.errors.kind import Severity
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from bbsd.errors.kind import DiagnosisKind
 
-KINDS: Mapping[str, DiagnosisKind] = {
-    kind.code: kind for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS)
-}
+PREFIX = "BB"
+
+
+def in_order_of_codes(kinds: Iterable[DiagnosisKind]) -> dict[str, DiagnosisKind]:
+    """Return kinds by their codes, ordered by number: BB099 before BB100 before BB1000."""
+    return {kind.code: kind for kind in sorted(kinds, key=lambda kind: int(kind.code.removeprefix(PREFIX)))}
+
+
+KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes((*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS))
 
 
 def describe(code: str) -> DiagnosisKind:
-    """Return the kind of mistake of a code, in either case; raises KeyError if there is no such code."""
+    """Return the kind of a code, written in either case; raises KeyError if there is no such code."""
     return KINDS[code.upper()]
+
+
+def severity_of(code: str) -> Severity:
+    """Return the severity of a code's kind; a code that the catalog does not have is a mistake."""
+    kind = KINDS.get(code)
+    return kind.severity if kind else Severity.MISTAKE

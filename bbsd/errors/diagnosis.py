@@ -1,12 +1,16 @@
-"""One mistake, its place in a file, and the error that carries all the mistakes of one file."""
+"""One diagnosis, its place in a file, and the error that carries all the diagnoses of one spec."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from bbsd.errors.catalog import severity_of
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+    from bbsd.errors.kind import Severity
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -28,9 +32,14 @@ class Diagnosis:
     place: Place
     advice: str = ""
 
+    @property
+    def severity(self) -> Severity:
+        """The severity that the catalog gives the code's kind: a mistake or a warning."""
+        return severity_of(self.code)
+
 
 class Lines(Protocol):
-    """What a diagnosis is shown with: the text it speaks of."""
+    """The text that a diagnosis refers to, line by line."""
 
     def line(self, number: int) -> str:
         """Return the line of that number, counted from 1, without its break; '' if there is none."""
@@ -38,7 +47,10 @@ class Lines(Protocol):
 
 
 class SpecError(Exception):
-    """Everything that is wrong with a file, and with others that it refers to: their texts by their names."""
+    """A spec that cannot be used: all diagnoses, at least one of them a mistake, and the texts of its files.
+
+    `source` is the spec's own text, `others` are the texts of the files that it refers to, by file name.
+    """
 
     def __init__(
         self, diagnoses: Iterable[Diagnosis], source: Lines, others: Mapping[str, Lines] | None = None
@@ -54,6 +66,7 @@ class SpecError(Exception):
 
     def __str__(self) -> str:
         return "\n".join(
-            f"{each.place.file}:{each.place.line}:{each.place.column}: error[{each.code}]: {each.message}"
-            for each in self.diagnoses
+            f"{diagnosis.place.file}:{diagnosis.place.line}:{diagnosis.place.column}: "
+            f"{diagnosis.severity}[{diagnosis.code}]: {diagnosis.message}"
+            for diagnosis in self.diagnoses
         )

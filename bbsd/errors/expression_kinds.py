@@ -1,4 +1,4 @@
-"""The kinds of mistakes that expressions can have: BB050 to BB069. An example is a part of a spec."""
+"""The kinds of mistakes in expressions; the first were BB050 to BB068. An example is a part of a spec."""
 
 from __future__ import annotations
 

@@ -1,9 +1,11 @@
-"""Diagnoses as people and programs read them."""
+"""Diagnoses as text for people and as JSON for programs."""
 
 from __future__ import annotations
 
 import unicodedata
 from typing import TYPE_CHECKING
+
+from bbsd.errors.kind import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -11,12 +13,13 @@ if TYPE_CHECKING:
     from bbsd.errors.diagnosis import Diagnosis, Place
 
 TAB = "    "
-BEFORE, SHOWN = 60, 160  # of a long line, characters shown before the place and in all
-BOLD, RED, BLUE, PLAIN = "\x1b[1m", "\x1b[1;31m", "\x1b[1;34m", "\x1b[0m"
+BEFORE, SHOWN = 60, 160  # the characters of a long line that are shown before the place, and in all
+BOLD, RED, YELLOW, BLUE, PLAIN = "\x1b[1m", "\x1b[1;31m", "\x1b[1;33m", "\x1b[1;34m", "\x1b[0m"
+STYLES = {Severity.MISTAKE: RED, Severity.WARNING: YELLOW}
 
 
 def escape(text: str) -> str:
-    """Return the text with what steers a terminal or hides (control and format characters) written out."""
+    """Return a text with control and format characters, which steer a terminal or hide, as visible escapes."""
     return "".join(_visible(character) for character in text)
 
 
@@ -27,7 +30,7 @@ def _visible(character: str) -> str:
 
 
 def _width(text: str) -> int:
-    """Return the columns of a text, of which East Asian wide characters take two and combining ones none."""
+    """Return how many columns a text takes: two for an East Asian wide character, none for a combining one."""
     wide = sum(unicodedata.east_asian_width(character) in {"W", "F"} for character in text)
     return len(text) + wide - sum(unicodedata.category(character) in {"Mn", "Me"} for character in text)
 
@@ -37,30 +40,31 @@ def _shown(text: str) -> str:
 
 
 def render_text(diagnosis: Diagnosis, source_line: str, color: bool = False) -> str:
-    """Return the diagnosis as `file:line:column: error[code]: message`, source line, caret and advice.
+    """Return a diagnosis as `file:line:column: error[code]: message`, source line, caret and advice.
 
-    Without a source line (there is no file, say) only the first line and the advice. It ends without a
-    line break.
+    A warning has `warning[code]` instead. Without a source line (there is no file, say) only the message and the
+    advice are shown. The text ends without a line break.
     """
     place = diagnosis.place
     head = f"{escape(place.file)}:{place.line}:{place.column}: "
-    error = _colored(f"error[{diagnosis.code}]", RED, color)
-    lines = [head + error + ": " + _colored(escape(diagnosis.message), BOLD, color)]
+    severity = _colored(f"{diagnosis.severity}[{diagnosis.code}]", STYLES[diagnosis.severity], color)
+    lines = [head + severity + ": " + _colored(escape(diagnosis.message), BOLD, color)]
     if source_line:
-        lines += _excerpt(place, source_line, color)
+        lines += _excerpt(place, source_line, STYLES[diagnosis.severity], color)
     if diagnosis.advice:
         lines.append(f"      {_colored('=', BLUE, color)} {escape(diagnosis.advice)}")
     return "\n".join(lines)
 
 
-def _excerpt(place: Place, source_line: str, color: bool) -> list[str]:
+def _excerpt(place: Place, source_line: str, style: str, color: bool) -> list[str]:
+    """Return the source line, cut where it is long, and the caret below the place."""
     start = place.column - 1
     first = max(0, start - BEFORE) if len(source_line) > SHOWN else 0
     last = first + SHOWN
     left = ("…" if first else "") + _shown(source_line[first:start])
     marked = _shown(source_line[start : min(start + place.length, last)])
     right = _shown(source_line[start + place.length : last]) + ("…" if last < len(source_line) else "")
-    caret = " " * _width(left) + _colored("^" * max(1, _width(marked)), RED, color)
+    caret = " " * _width(left) + _colored("^" * max(1, _width(marked)), style, color)
     return [
         _colored(f"{place.line:>5} |", BLUE, color) + f" {left}{marked}{right}",
         _colored("      |", BLUE, color) + f" {caret}",
@@ -72,16 +76,23 @@ def _colored(text: str, style: str, color: bool) -> str:
 
 
 def render_json(diagnoses: Iterable[Diagnosis]) -> list[dict[str, str | int]]:
-    """Return objects for JSON: file, line, column, end_column (exclusive), code, message, advice."""
-    return [
-        {
-            "file": each.place.file,
-            "line": each.place.line,
-            "column": each.place.column,
-            "end_column": each.place.column + each.place.length,
-            "code": each.code,
-            "message": each.message,
-            "advice": each.advice,
-        }
-        for each in diagnoses
-    ]
+    """Return objects for JSON: file, line, column, end_column (exclusive), code, message, advice.
+
+    Only a warning also has a severity.
+    """
+    return [_json_object(diagnosis) for diagnosis in diagnoses]
+
+
+def _json_object(diagnosis: Diagnosis) -> dict[str, str | int]:
+    place = diagnosis.place
+    is_mistake = diagnosis.severity is Severity.MISTAKE
+    return {
+        "file": place.file,
+        "line": place.line,
+        "column": place.column,
+        "end_column": place.column + place.length,
+        "code": diagnosis.code,
+        "message": diagnosis.message,
+        "advice": diagnosis.advice,
+        **({} if is_mistake else {"severity": diagnosis.severity.value}),
+    }

@@ -1,4 +1,4 @@
-"""The kinds of mistakes that a spec's form and meaning can have: BB020 to BB049.
+"""The kinds of mistakes in a spec's form and meaning; the first were BB020 to BB049.
 
 An example is a part of a spec, or an argument of the command line where it begins with `--set`.
 """

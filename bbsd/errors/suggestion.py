@@ -1,4 +1,4 @@
-"""Guesses at the name that was meant."""
+"""Suggestions for a misspelled name."""
 
 from __future__ import annotations
 
@@ -9,34 +9,41 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-LONGEST_GUESSED = 100  # difflib is quadratic, and no name is that long
-MOST_COMPARED = 60  # difflib is slow, and a hostile file has thousands of names and hundreds of mistakes
-MOST_KNOWN = 10_000  # cells of a partition, say
+MAX_WORD = 100  # characters; difflib takes quadratic time, and no name is that long
+MAX_COMPARED = (
+    60  # names; difflib is slow, and a hostile file has thousands of names and hundreds of mistakes
+)
+MAX_KNOWN = 10_000  # names; the cells of a partition can be as many
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """Return `; did you mean "..."?` with the known name nearest to the word, or '' if none is near.
 
-    Where no spelling is near, one that abbreviates the other by its initials (dt and delta_t) is.
+    Where no spelling is near, a name is if it or the word abbreviates the other by its initials (dt and delta_t).
     """
-    if len(word) > LONGEST_GUESSED:
+    if len(word) > MAX_WORD:
         return ""
-    names = _likely(word, list(islice(known, MOST_KNOWN)))
+    names = _likely(word, list(islice(known, MAX_KNOWN)))
     near = get_close_matches(word, names, n=1) or [name for name in names if _is_short_for(name, word)]
     return f'; did you mean "{near[0]}"?' if near else ""
 
 
 def _likely(word: str, names: list[str]) -> list[str]:
-    """All names if they are few; else some of about the same length that begin or end alike."""
-    if len(names) <= MOST_COMPARED:
+    """Return all names if they are few; else some of about the word's length that begin or end as it does."""
+    if len(names) <= MAX_COMPARED:
         return names
-    few, many = len(word) * 2 // 3, len(word) * 3 // 2 + 1
+    shortest, longest = len(word) * 2 // 3, len(word) * 3 // 2 + 1
     first, last = word[:1], word[-2:]
-    alike = [name for name in names if few <= len(name) <= many and (name[:1] == first or name[-2:] == last)]
-    return alike[:MOST_COMPARED]
+    alike = [
+        name
+        for name in names
+        if shortest <= len(name) <= longest and (name[:1] == first or name[-2:] == last)
+    ]
+    return alike[:MAX_COMPARED]
 
 
 def _is_short_for(one: str, other: str) -> bool:
+    """Say whether one of two names consists of the other's initials."""
     return one == _initials(other) or other == _initials(one)
 
 

@@ -1,4 +1,4 @@
-"""The kinds of mistakes that reading a file as YAML finds: BB001 to BB019."""
+"""The kinds of mistakes that are found when a file is read as YAML; the first were BB001 to BB018."""
 
 from __future__ import annotations
 

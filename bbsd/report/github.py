@@ -30,7 +30,7 @@ def _command(diagnosis: Diagnosis) -> str:
         "title": diagnosis.code,
     }
     written = ",".join(f"{name}={value.translate(IN_PROPERTY)}" for name, value in properties.items())
-    return f"::error {written}::{message_text(diagnosis).translate(IN_MESSAGE)}"
+    return f"::{diagnosis.severity} {written}::{message_text(diagnosis).translate(IN_MESSAGE)}"
 
 
 def message_text(diagnosis: Diagnosis) -> str:

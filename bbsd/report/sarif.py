@@ -44,7 +44,7 @@ def _result(diagnosis: Diagnosis) -> dict[str, Any]:
     return {
         "ruleId": diagnosis.code,
         "ruleIndex": RULES.index(diagnosis.code),
-        "level": "error",
+        "level": diagnosis.severity.value,
         "message": {"text": message_text(diagnosis)},
         "locations": [{"physicalLocation": _location(diagnosis.place)}],
     }

@@ -2,12 +2,27 @@ import re
 
 import pytest
 
-from bbsd.errors import KINDS, describe
+from bbsd.errors import KINDS, DiagnosisKind, Severity, describe
+from bbsd.errors.catalog import in_order_of_codes
+from bbsd.errors.expression_kinds import EXPRESSION_KINDS
+from bbsd.errors.spec_kinds import SPEC_KINDS
+from bbsd.errors.text_kinds import TEXT_KINDS
 
 
-def test_codes_are_unique_and_ordered_as_listed() -> None:
-    assert list(KINDS) == sorted(KINDS)
-    assert all(re.fullmatch(r"BB\d{3}", code) for code in KINDS)
+def test_codes_are_unique_and_ordered_by_their_numbers() -> None:
+    listed = [kind.code for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS)]
+    assert len(KINDS) == len(listed)
+    assert list(KINDS) == sorted(listed, key=lambda code: int(code.removeprefix("BB")))
+    assert all(re.fullmatch(r"BB\d{3,}", code) for code in KINDS)
+
+
+def test_there_is_room_beyond_two_and_three_digits() -> None:
+    kinds = [DiagnosisKind(code, "", "", "", "") for code in ("BB1000", "BB099", "BB100", "BB001")]
+    assert list(in_order_of_codes(kinds)) == ["BB001", "BB099", "BB100", "BB1000"]
+
+
+def test_a_kind_is_a_mistake_unless_it_says_otherwise() -> None:
+    assert DiagnosisKind("BB100", "", "", "", "").severity is Severity.MISTAKE
 
 
 def test_every_kind_says_all_there_is_to_say() -> None:

@@ -1,6 +1,8 @@
 import pickle
 
-from bbsd.errors import Diagnosis, Place, SpecError
+import pytest
+
+from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity, SpecError
 from bbsd.text import Source
 
 MISTAKES = (
@@ -20,3 +22,15 @@ def test_an_error_survives_the_way_between_processes() -> None:
     error = pickle.loads(pickle.dumps(SpecError(MISTAKES, Source("spec.yaml", "text"))))
     assert error.diagnoses == MISTAKES
     assert error.source.line(1) == "text"
+
+
+def test_the_severity_is_that_of_the_kind(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = Diagnosis("BB101", "this is odd", Place("spec.yaml", 1, 1))
+    assert found.severity is Severity.MISTAKE
+    made_up = DiagnosisKind("BB101", "odd", "why", "example", "mend", Severity.WARNING)
+    monkeypatch.setitem(KINDS, "BB101", made_up)
+    assert found.severity is Severity.WARNING
+    assert str(SpecError([MISTAKES[0], found], Source("spec.yaml", "text"))).splitlines() == [
+        "spec.yaml:3:1: error[BB006]: the key is given twice",
+        "spec.yaml:1:1: warning[BB101]: this is odd",
+    ]

@@ -1,6 +1,8 @@
 import json
 
-from bbsd.errors import Diagnosis, Place, escape, render_json, render_text
+import pytest
+
+from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity, escape, render_json, render_text
 
 UNEXPECTED = Diagnosis(
     "BB012",
@@ -90,3 +92,25 @@ def test_json_has_the_place_code_message_and_advice() -> None:
         "message": 'unexpected key "modlues"; did you mean "modules"?',
         "advice": "advice, when there is one",
     }
+
+
+@pytest.fixture
+def warning(monkeypatch: pytest.MonkeyPatch) -> Diagnosis:
+    """A diagnosis of a made-up kind, which the catalog does not have."""
+    kind = DiagnosisKind("BB101", "odd", "why", "example", "mend", Severity.WARNING)
+    monkeypatch.setitem(KINDS, kind.code, kind)
+    return Diagnosis(kind.code, "this is odd", Place("spec.yaml", 1, 1, 5))
+
+
+def test_a_warning_is_shown_as_one(warning: Diagnosis) -> None:
+    assert render_text(warning, "steps: 1").split("\n") == [
+        "spec.yaml:1:1: warning[BB101]: this is odd",
+        "    1 | steps: 1",
+        "      | ^^^^^",
+    ]
+    assert "\x1b[1;33mwarning[BB101]\x1b[0m" in render_text(warning, "steps: 1", color=True)
+
+
+def test_json_says_that_a_warning_is_one(warning: Diagnosis) -> None:
+    (rendered,) = render_json([warning])
+    assert rendered["severity"] == "warning"

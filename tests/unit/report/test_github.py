@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from bbsd.errors import Diagnosis, Place
+from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity
 from bbsd.report.github import github_text
 
 
@@ -20,3 +20,10 @@ def test_a_file_or_message_cannot_add_a_property_or_a_command():
 
 def test_no_mistakes_are_no_text():
     assert github_text([]) == ""
+
+
+def test_a_warning_is_a_command_of_its_own(monkeypatch):
+    kind = DiagnosisKind("BB101", "odd", "why", "example", "mend", Severity.WARNING)
+    monkeypatch.setitem(KINDS, kind.code, kind)
+    found = github_text([Diagnosis(kind.code, "this is odd", Place("a.yaml", 1, 1))])
+    assert found.startswith("::warning file=a.yaml,line=1,")

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from bbsd.errors import KINDS, Diagnosis, Place
+from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity
+from bbsd.report import sarif
 from bbsd.report.sarif import sarif_log
 
 DIAGNOSIS = Diagnosis("BB020", "unexpected key", Place("my specs/a.yaml", 3, 5, 4))
@@ -39,3 +40,11 @@ def test_a_file_is_a_uri(tmp_path):
 def test_every_kind_of_mistake_is_a_rule():
     rules = run()["tool"]["driver"]["rules"]
     assert [rule["id"] for rule in rules] == list(KINDS)
+
+
+def test_the_level_is_the_severity(monkeypatch):
+    kind = DiagnosisKind("BB101", "odd", "why", "example", "mend", Severity.WARNING)
+    monkeypatch.setitem(KINDS, kind.code, kind)
+    monkeypatch.setattr(sarif, "RULES", tuple(KINDS))
+    results = run(DIAGNOSIS, Diagnosis(kind.code, "this is odd", Place("a.yaml", 1, 1)))["results"]
+    assert [result["level"] for result in results] == ["error", "warning"]
