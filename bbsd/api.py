@@ -22,8 +22,8 @@ from bbsd.evaluation import (
     RewardNotFinite,
     Trace,
     agents_of,
-    detailed,
-    enumerated,
+    detailed_outcomes,
+    enumerate_starts,
     evaluation,
     weighted_evaluation,
 )
@@ -35,12 +35,13 @@ from bbsd.language.loading import Loaded
 from bbsd.language.loading import check as check_source
 from bbsd.language.loading import load as load_source
 from bbsd.language.meaning import seed_key
-from bbsd.runs.command import Command, answers
-from bbsd.runs.folder import Folder, Identity, identity, new_folder, old_folder
+from bbsd.runs.answers import complete_runs
+from bbsd.runs.command import Command
+from bbsd.runs.folder import Folder, Identity, folder_to_resume, identity, new_folder
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
-from bbsd.runs.run import RANDOM_EPISODES, judge
 from bbsd.runs.signals import interrupts_request_stop
+from bbsd.solver.judgement import RANDOM_EPISODES, judge
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.text import Source
@@ -178,7 +179,7 @@ def evaluate(
             return evaluation(problem, _lived(problem, lived, streams, generation, progress), agents)
         lived = agents_of([given_architecture(problem)])
         if exact:
-            problem, weights = enumerated(problem)
+            problem, weights = enumerate_starts(problem)
             starts = np.arange(len(weights), dtype=np.uint64)
             return weighted_evaluation(problem, _lived(problem, lived, starts, generation, progress), weights)
         streams = keys(key, 0, episodes or EPISODES)
@@ -190,7 +191,7 @@ def _lived(
 ) -> Iterator[DetailedOutcome]:
     """The episodes of agents, batch by batch, each of which is told of."""
     done, total = 0, len(agents) * streams.shape[-1]
-    for outcome in detailed(problem, agents, streams, generation):
+    for outcome in detailed_outcomes(problem, agents, streams, generation):
         done += len(outcome.returns)
         if tell is not None:
             tell(done, total)
@@ -249,7 +250,7 @@ def design(
     with _reward_at_its_place(loaded), interrupts_request_stop(overdue and (lambda: overdue(stopped))):
         try:
             judged = judge(
-                answers(command, jobs, progress and _teller(command, progress), ready),
+                complete_runs(command, jobs, progress and _teller(command, progress), ready),
                 problem,
                 command.settings,
                 seed,
@@ -260,7 +261,7 @@ def design(
     architecture = tidied(problem.meaning, judged.architecture)
     folder.write_architecture(designed_text(loaded, architecture))
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
-    folder.write_note(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
+    folder.write_run_file(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
     seconds = time.monotonic() - began
     return Designed(
         folder.architecture, folder.path, names, judged.evaluation, judged.lifetime, judged.random, seconds
@@ -298,10 +299,10 @@ def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
 def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:
     name = Path(loaded.source.file).stem
     if resume:
-        return old_folder(out, name, who)
+        return folder_to_resume(out, name, who)
     folder = new_folder(out, name, who.seed)
     folder.copy_spec(loaded.lineage.flat.source.text)
-    folder.write_note(who)
+    folder.write_run_file(who)
     return folder
 
 

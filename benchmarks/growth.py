@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.kernel.keys import keys
-from bbsd.solver.lifetime import live
+from bbsd.solver.lifetime import run_lifetimes
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from benchmarks.generated import Shape, compiled, text_of
@@ -121,7 +121,7 @@ def lives(size: Size) -> Callable[[], object]:
     learning = settings_of(problem.meaning).learning
     agents = random_agents(problem, KEY, POPULATION)[np.arange(size.agents) % POPULATION]
     streams = keys(KEY, 0, size.agents)
-    return lambda: live(problem, agents, streams, 1, learning)
+    return lambda: run_lifetimes(problem, agents, streams, 1, learning)
 
 
 def exponent(sizes: tuple[int, ...], times: Floats) -> float:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 import bbsd
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import Interval, agents_of, detailed, interval
+from bbsd.evaluation import Interval, agents_of, detailed_outcomes, interval
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import name_word
 
@@ -58,7 +58,7 @@ def lived(path: Path) -> Lived:
     loaded = bbsd.load(path)
     problem = compile_meaning(loaded.meaning)
     generation = loaded.spec.design.coevolution.generations
-    outcomes = list(detailed(problem, agents_of([given_architecture(problem)]), FRESH, generation))
+    outcomes = list(detailed_outcomes(problem, agents_of([given_architecture(problem)]), FRESH, generation))
     terms = np.concatenate([each.terms for each in outcomes])
     return Lived(
         np.concatenate([each.returns for each in outcomes]),

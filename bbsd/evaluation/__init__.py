@@ -1,14 +1,15 @@
 """Episodes of finished designs, and their statistics."""
 
 from bbsd.evaluation.agents import Agents, agents_of
-from bbsd.evaluation.enumeration import NotEnumerable, enumerated
-from bbsd.evaluation.episodes import detailed, returns_of
+from bbsd.evaluation.enumeration import NotEnumerable, enumerate_starts
+from bbsd.evaluation.episodes import detailed_outcomes, returns_of
 from bbsd.evaluation.finite import RewardNotFinite, require_finite
 from bbsd.evaluation.scene import Scene
 from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interval, weighted_evaluation
 from bbsd.evaluation.tracing import Trace, trace
 
 __all__ = [
-    "Agents", "Evaluation", "Interval", "NotEnumerable", "RewardNotFinite", "Scene", "Trace", "agents_of", "detailed",
-    "enumerated", "evaluation", "interval", "require_finite", "returns_of", "trace", "weighted_evaluation",
+    "Agents", "Evaluation", "Interval", "NotEnumerable", "RewardNotFinite", "Scene", "Trace", "agents_of",
+    "detailed_outcomes", "enumerate_starts", "evaluation", "interval", "require_finite", "returns_of", "trace",
+    "weighted_evaluation",
 ]  # fmt: skip

@@ -32,7 +32,7 @@ class Agents:
     def __getitem__(self, which: Integers) -> Agents:
         return Agents(self.pools, self.members[which], self.structures[which])
 
-    def living(self, structures: Integers) -> Agents:
+    def with_structures(self, structures: Integers) -> Agents:
         """The same agents with other structures."""
         return Agents(self.pools, self.members, structures)
 

@@ -24,7 +24,7 @@ class NotEnumerable(UsageError):
     """Why the starts of a spec cannot all be tried."""
 
 
-def enumerated(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]]:
+def enumerate_starts(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]]:
     """A problem whose n-th start is chosen by the key n, and the probability of each start (n_starts,).
 
     Raises NotEnumerable where something is drawn after the start, from a continuous range, or from too many values.

@@ -35,7 +35,9 @@ def returns_of(problem: Problem, agents: Agents, keys: Keys, generation: int) ->
     return returns.reshape(len(agents), -1)
 
 
-def detailed(problem: Problem, agents: Agents, keys: Keys, generation: int) -> Iterator[DetailedOutcome]:
+def detailed_outcomes(
+    problem: Problem, agents: Agents, keys: Keys, generation: int
+) -> Iterator[DetailedOutcome]:
     """The same episodes in detail, batch by batch, agent after agent."""
     for _, lived, streams in _batches(agents, keys):
         team = problem.assemble(agents.pools, lived.members, generation)

@@ -1,7 +1,4 @@
-"""A run's state on disk: one file of plain arrays.
-
-Replaced whole, so a run that is killed loses at most one generation.
-"""
+"""A run's state on disk: one file of plain arrays, replaced whole, so a killed run loses at most one generation."""
 
 from __future__ import annotations
 
@@ -27,8 +24,8 @@ DIGEST_BYTES = 32
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Progress:
-    """Where a run stands: its number (from 0), its state, and its answer once there is one."""
+class RunState:
+    """How far a run is: its number (from 0), the state of its method, and its answer once there is one."""
 
     run: int
     state: State
@@ -36,41 +33,41 @@ class Progress:
 
 
 class CheckpointError(ValueError):
-    """A checkpoint that cannot be gone on from, and why."""
+    """A checkpoint that cannot be resumed; the message says why."""
 
 
-def save(path: Path, progress: Progress) -> None:
-    """Write the state beside its digest, whole or not at all."""
+def save(path: Path, reached: RunState) -> None:
+    """Write a run's state and its digest into a file, completely or not at all."""
     part = path.with_suffix(".part")
-    part.write_bytes(packed(progress))
+    part.write_bytes(packed(reached))
     part.replace(path)
 
 
-def packed(progress: Progress) -> bytes:
-    """The content of the file."""
+def packed(reached: RunState) -> bytes:
+    """Return the content of a checkpoint file: a digest, then the arrays."""
     buffer = BytesIO()
-    np.savez(buffer, **_arrays(progress), allow_pickle=False)
+    np.savez(buffer, **_arrays(reached), allow_pickle=False)
     content = buffer.getvalue()
     return sha256(content).digest() + content
 
 
-def load(path: Path) -> Progress:
-    """Read a state back; raises CheckpointError for a file that is damaged."""
+def load(path: Path) -> RunState:
+    """Read a run's state from a file. Raises CheckpointError for a damaged file."""
     content = path.read_bytes()
     digest, content = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
     if sha256(content).digest() != digest:
         raise CheckpointError(f"{path} is damaged: its digest does not match")
     try:
         with np.load(BytesIO(content), allow_pickle=False) as arrays:
-            return _progress(dict(arrays))
+            return _run_state(dict(arrays))
     except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError) as error:
         raise CheckpointError(f"{path} cannot be read: {error}") from None
 
 
-def _arrays(progress: Progress) -> dict[str, NDArray[np.generic]]:
-    state = progress.state
+def _arrays(reached: RunState) -> dict[str, NDArray[np.generic]]:
+    state = reached.state
     return {
-        "run": np.array(progress.run),
+        "run": np.array(reached.run),
         "generation": np.array(state.generation),
         **{f"pool_{index}": pool for index, pool in enumerate(state.pools)},
         "fitness": state.fitness,
@@ -80,7 +77,7 @@ def _arrays(progress: Progress) -> dict[str, NDArray[np.generic]]:
         "champion_structures": state.champions.structures,
         "champion_fitness": state.champions.fitness,
         "champion_capacity": np.array(state.champions.capacity),
-        **_answer_arrays(progress.answer),
+        **_answer_arrays(reached.answer),
     }
 
 
@@ -91,7 +88,7 @@ def _answer_arrays(answer: Architecture | None) -> dict[str, NDArray[np.generic]
     return {**tables, "answer_structure": answer.structure}
 
 
-def _progress(arrays: dict[str, NDArray[Any]]) -> Progress:
+def _run_state(arrays: dict[str, NDArray[Any]]) -> RunState:
     pools = tuple(arrays[f"pool_{index}"] for index in range(len(arrays["fitness"])))
     champions = Champions(
         arrays["champion_tables"],
@@ -101,7 +98,7 @@ def _progress(arrays: dict[str, NDArray[Any]]) -> Progress:
     )
     culture = Culture(arrays["memes"], arrays["meme_fitness"])
     state = State(int(arrays["generation"]), pools, arrays["fitness"], culture, champions)
-    return Progress(int(arrays["run"]), state, _answer(arrays))
+    return RunState(int(arrays["run"]), state, _answer(arrays))
 
 
 def _answer(arrays: dict[str, NDArray[Any]]) -> Architecture | None:

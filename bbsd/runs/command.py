@@ -1,4 +1,4 @@
-"""All runs of a command: each goes on from where it stood, one after the other or side by side."""
+"""What a command runs and where it is kept; how one of its runs is completed."""
 
 from __future__ import annotations
 
@@ -13,17 +13,16 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.runs.folder import Folder
-    from bbsd.runs.processes import Processes
     from bbsd.runs.records import Records
     from bbsd.solver.settings import Settings
 
-    Tell = Callable[[dict[str, Any]], None]
-    """Is given the metrics of each generation."""
+    Listener = Callable[[dict[str, Any]], None]
+    """Called with the metrics of each generation."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Command:
-    """What is to be run, and where it is kept."""
+    """Several runs of one problem, and the folder that keeps them."""
 
     problem: Problem
     settings: Settings
@@ -32,42 +31,26 @@ class Command:
     folder: Folder
 
     def with_threads(self, jobs: int) -> Command:
-        """The same with so many threads in each run."""
+        """Return the same command with this number of threads in each run."""
         return replace(self, problem=replace(self.problem, jobs=jobs))
 
     def records(self, run: int) -> Records:
-        """What is kept of a run, which counts from 0."""
+        """Return the records of a run, which counts from 0."""
         return self.folder.records(run, self.n_runs)
 
     def answer(self, run: int) -> Architecture | None:
-        """A run's answer, None where it has not come to its end. Raises FolderError for damaged files."""
-        progress = self.records(run).progress()
-        return None if progress is None else progress.answer
+        """Return the answer of a run, or None if it is not complete. Raises FolderError for damaged files."""
+        reached = self.records(run).load()
+        return None if reached is None else reached.answer
 
-    def complete(self, run: int, tell: Tell | None = None) -> Architecture:
-        """Go on with a run to its answer; each generation is kept before it is told."""
+    def complete(self, run: int, listener: Listener | None = None) -> Architecture:
+        """Start or resume a run and return its answer; each generation is saved before it is reported."""
         records = self.records(run)
-        progress = records.progress() or start(self.problem, self.settings, self.seed, run)
-        for reached, line in generations(progress, self.problem, self.settings, self.seed):
-            progress = reached
-            records.save(progress, line)
-            if tell is not None and line is not None:
-                tell(line)
-        if progress.answer is None:
+        reached = records.load() or start(self.problem, self.settings, self.seed, run)
+        for reached, line in generations(reached, self.problem, self.settings, self.seed):  # noqa: B020
+            records.save(reached, line)
+            if listener is not None and line is not None:
+                listener(line)
+        if reached.answer is None:
             raise RuntimeError("a run ended without an answer")
-        return progress.answer
-
-
-def answers(
-    command: Command, jobs: int, tell: Tell | None = None, ready: Processes | None = None
-) -> list[Architecture]:
-    """The answers of all runs, in their order; with several jobs the runs that are left go side by side."""
-    found = {run: command.answer(run) for run in range(command.n_runs)}
-    left = [run for run, answer in found.items() if answer is None]
-    if min(len(left), jobs) > 1:
-        from bbsd.runs.workers import side_by_side
-
-        found |= side_by_side(command, left, jobs, tell, ready)
-    else:
-        found |= {run: command.complete(run, tell) for run in left}
-    return [answer for answer in found.values() if answer is not None]
+        return reached.answer

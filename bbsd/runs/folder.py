@@ -61,7 +61,7 @@ class Folder:
         return self.path / "metrics.jsonl"
 
     @property
-    def note(self) -> Path:
+    def run_file(self) -> Path:
         """What was run, with what, and what came of it."""
         return self.path / "run.json"
 
@@ -88,7 +88,7 @@ class Folder:
         """The metrics of all generations. Raises FolderError for a file that is damaged."""
         return Records(self.path).lines()
 
-    def write_note(self, who: Identity, result: dict[str, Any] | None = None) -> None:
+    def write_run_file(self, who: Identity, result: dict[str, Any] | None = None) -> None:
         """Write `run.json`; the result is added when there is one."""
         note = {
             "format": FORMAT,
@@ -101,12 +101,12 @@ class Folder:
             },
             **({} if result is None else {"result": result}),
         }
-        self.note.write_text(json.dumps(note, indent=2) + "\n", encoding="utf-8")
+        self.run_file.write_text(json.dumps(note, indent=2) + "\n", encoding="utf-8")
 
     def is_of(self, who: Identity) -> bool:
         """Whether the folder holds a run of exactly this."""
         try:
-            note = json.loads(self.note.read_text(encoding="utf-8"))
+            note = json.loads(self.run_file.read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return False
         return isinstance(note, dict) and all(note.get(key) == value for key, value in who.plain().items())
@@ -135,7 +135,7 @@ def _made(path: Path) -> bool:
     return True
 
 
-def old_folder(wanted: Path | None, name: str, who: Identity) -> Folder:
+def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
     """The folder to go on in: the one wanted, or the newest default one that is of the same."""
     if wanted is not None:
         if not Folder(wanted).is_of(who):

@@ -13,8 +13,8 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 from bbsd.language.meaning.structure import OPEN_LAYER
-from bbsd.runs.run import RANDOM_AGENTS, RANDOM_EPISODES
 from bbsd.runs.sampling import sample
+from bbsd.solver.judgement import RANDOM_AGENTS, RANDOM_EPISODES
 from bbsd.solver.race import FIRST_ROUND
 
 if TYPE_CHECKING:

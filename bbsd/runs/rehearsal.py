@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.evaluation import RewardNotFinite
 from bbsd.kernel.streams import name_word
-from bbsd.solver.generation import beginning, next_generation
+from bbsd.solver.generation import initial_state, next_generation
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem
@@ -25,7 +25,7 @@ GENERATIONS = 2
 def rehearse(problem: Problem, settings: Settings) -> None:
     """Call once whatever a run's generations compile. A reward that is not finite is left for the run to find."""
     small = in_the_smallest(settings)
-    state = beginning(problem, small, REHEARSAL)
+    state = initial_state(problem, small, REHEARSAL)
     with suppress(RewardNotFinite):
         for _ in range(min(GENERATIONS, settings.coevolution.generations)):
             state, _ = next_generation(state, problem, small, REHEARSAL)

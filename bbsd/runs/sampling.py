@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
-from bbsd.evaluation import detailed
+from bbsd.evaluation import detailed_outcomes
 from bbsd.kernel.keys import keys
 from bbsd.runs import checkpoint, metrics
 from bbsd.runs.rehearsal import rehearse
-from bbsd.solver.generation import beginning, next_generation
+from bbsd.solver.generation import initial_state, next_generation
 from bbsd.solver.random_agents import random_agents
 
 if TYPE_CHECKING:
@@ -56,7 +56,9 @@ class Sample:
 def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     """Live and breed as a run does, with more and more agents until it takes long enough to be measured."""
     first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
-    state, _ = next_generation(beginning(problem, settings, key), problem, _cut(settings, FEW, SHORT), key)
+    state, _ = next_generation(
+        initial_state(problem, settings, key), problem, _cut(settings, FEW, SHORT), key
+    )
 
     def seconds(n_agents: int, lifetime: int) -> float:
         return _seconds(_generation, state, problem, _cut(settings, n_agents, lifetime), key)
@@ -106,11 +108,11 @@ def _all_kernels(problem: Problem, settings: Settings, key: int) -> None:
     """Call once whatever is compiled when it is called."""
     rehearse(problem, settings)
     agents = random_agents(problem, key, 1)
-    for _ in detailed(problem, agents, keys(key, 0, 1), settings.coevolution.generations):
+    for _ in detailed_outcomes(problem, agents, keys(key, 0, 1), settings.coevolution.generations):
         pass
 
 
 def _generation(state: State, problem: Problem, settings: Settings, key: int) -> None:
     following, census = next_generation(state, problem, settings, key)
     metrics.line(0, following, census, problem)
-    checkpoint.packed(checkpoint.Progress(0, following))
+    checkpoint.packed(checkpoint.RunState(0, following))

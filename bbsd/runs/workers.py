@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from bbsd.architecture import Architecture
-    from bbsd.runs.command import Command, Tell
+    from bbsd.runs.command import Command, Listener
 
     Submit = Callable[[int], Future[Architecture]]
 
@@ -42,7 +42,7 @@ class WorkerLost(UsageError):
 
 
 def side_by_side(
-    command: Command, runs: list[int], jobs: int, tell: Tell | None, ready: Processes | None = None
+    command: Command, runs: list[int], jobs: int, tell: Listener | None, ready: Processes | None = None
 ) -> dict[int, Architecture]:
     """The answers of these runs, several at a time; jobs that are left over are threads inside them.
 
@@ -62,7 +62,7 @@ def side_by_side(
 
 
 def _shared(
-    command: Command, runs: list[int], submit: Submit, n_workers: int, tell: Tell
+    command: Command, runs: list[int], submit: Submit, n_workers: int, tell: Listener
 ) -> dict[int, Architecture]:
     """Whoever is free takes the next run: this process, and a thread of it for each worker."""
     left, request = deque(runs), current_stop_request()

@@ -34,12 +34,12 @@ def candidates(state: State, problem: Problem, settings: Settings) -> list[Archi
     )
     fittest_first = state.culture.memes[np.argsort(-state.culture.fitness, kind="stable")]
     composed = [Architecture(best, meme) for meme in fittest_first]
-    return different([*composed, *state.champions.architectures(problem)], problem)[
+    return distinct([*composed, *state.champions.architectures(problem)], problem)[
         : settings.answer.candidates
     ]
 
 
-def different(architectures: Iterable[Architecture], problem: Problem) -> list[Architecture]:
+def distinct(architectures: Iterable[Architecture], problem: Problem) -> list[Architecture]:
     """Each different behavior once, by what controls in every cell of the joint input space."""
     found: dict[bytes, Architecture] = {}
     every = list(architectures)

@@ -14,7 +14,7 @@ from bbsd.solver import sharing
 from bbsd.solver.champions import Champions, no_champions
 from bbsd.solver.culture import Culture, draw_memes, empty_culture, take_in
 from bbsd.solver.genetics import expected_fitness, next_pool, random_pool
-from bbsd.solver.lifetime import Lives, live
+from bbsd.solver.lifetime import Lifetimes, run_lifetimes
 from bbsd.solver.pairing import members
 from bbsd.solver.structures import random_structures
 
@@ -53,7 +53,7 @@ class Census:
     structures: NDArray[np.int64]
 
 
-def beginning(problem: Problem, settings: Settings, key: int) -> State:
+def initial_state(problem: Problem, settings: Settings, key: int) -> State:
     """Initialize n different behavior pools and an empty culture.
 
     A behavior without cells to be designed needs one individual.
@@ -82,12 +82,14 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
 
     pools, expected = state.pools, [np.zeros(len(pool)) for pool in state.pools]
     if generation > 1:
-        pools, expected = bred(state, problem, settings, fold(key, BREEDING))
+        pools, expected = breed_pools(state, problem, settings, fold(key, BREEDING))
     # Select n different behavior modules from each pool; select a meme T0, the initial structure.
     who = members(fold(key, PAIRING), expected, settings.coevolution.agents, settings.coevolution.pairing)
-    agents = Agents(pools, who, born(state.culture, problem, settings, key, len(who)))
+    agents = Agents(pools, who, initial_structures(state.culture, problem, settings, key, len(who)))
     # For a lifetime: choose T* (9), interact, receive reinforcement, update the values (13).
-    lives = live(problem, agents, keys(fold(key, LIVES), 0, len(agents)), generation, settings.learning)
+    lives = run_lifetimes(
+        problem, agents, keys(fold(key, LIVES), 0, len(agents)), generation, settings.learning
+    )
     # Return fitness (14) and the final structure; share fitness to behaviors by (15) or (17).
     fitness = sharing.agent_fitness(lives.returns, settings.learning.last)
     shared = share(fitness, lives, who, settings)
@@ -96,13 +98,13 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
     if settings.culture is not None:
         culture = take_in(culture, lives.structures, fitness, settings.culture)
 
-    final = agents.living(lives.structures)
+    final = agents.with_structures(lives.structures)
     champions = state.champions.joined(final, fitness)
     census = Census(fitness, sharing.lifetime_fitness(lives.returns), lives.structures)
     return State(generation, pools, shared, culture, champions), census
 
 
-def born(
+def initial_structures(
     culture: Culture, problem: Problem, settings: Settings, key: int, n_agents: int
 ) -> NDArray[np.int64]:
     """The structures that agents are born with: memes where there are any, else random ones."""
@@ -112,7 +114,7 @@ def born(
 
 
 def share(
-    fitness: NDArray[np.float64], lives: Lives, who: NDArray[np.int64], settings: Settings
+    fitness: NDArray[np.float64], lives: Lifetimes, who: NDArray[np.int64], settings: Settings
 ) -> NDArray[np.float64]:
     """The fitness of individuals (n_behaviors, population) by the sharing policy."""
     if settings.sharing == "uniform":
@@ -120,7 +122,7 @@ def share(
     return sharing.value_based(lives.values, who, settings.coevolution.population)
 
 
-def bred(
+def breed_pools(
     state: State, problem: Problem, settings: Settings, key: int
 ) -> tuple[tuple[Pool, ...], list[NDArray[np.float64]]]:
     """Apply selection, crossover and mutation to each pool, at the rates of the generation that ended.

@@ -30,7 +30,7 @@ WHETHER = name_word("whether")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Lives:
+class Lifetimes:
     """What lifetimes left behind: returns (n_agents.
 
     N_episodes), final structures, Ṽ (n_agents, n_layers, n_behaviors).
@@ -41,9 +41,9 @@ class Lives:
     values: NDArray[np.float64]
 
 
-def live(
+def run_lifetimes(
     problem: Problem, agents: Agents, keys: NDArray[np.uint64], generation: int, learning: Learning
-) -> Lives:
+) -> Lifetimes:
     """Let agents live side by side, each in the streams of its own key.
 
     The first episode is lived with the structure an agent is born with; the one returned is the last episode's.
@@ -66,7 +66,9 @@ def live(
             else team.detailed_episode(streams, structures)
         )
         where = f"generation {generation}, episode {episode}"
-        require_finite(problem, agents.living(structures), streams, outcome.returns, generation, where)
+        require_finite(
+            problem, agents.with_structures(structures), streams, outcome.returns, generation, where
+        )
         rate = float(learning.rate[episode - 1])
         if isinstance(outcome, DetailedOutcome) and counters is not None:
             counters.update(structures, outcome.credit, outcome.control, rate)
@@ -74,7 +76,7 @@ def live(
         else:
             update_values(values, structures, outcome.credit, rate)
         returns[:, episode - 1] = outcome.returns
-    return Lives(returns, structures, values)
+    return Lifetimes(returns, structures, values)
 
 
 def choose(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import Agents, detailed
+from bbsd.evaluation import Agents, detailed_outcomes
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import meaning_of
 
@@ -100,4 +100,4 @@ def episode_of(problem, tables, structure, *, key=1, generation=1):
     pools = tuple(np.array([table], np.uint8) for table in tables)
     members = np.zeros((1, len(pools)), np.int64)
     agents = Agents(pools, members, np.array([structure], np.int64))
-    return next(detailed(problem, agents, np.array([key], np.uint64), generation))
+    return next(detailed_outcomes(problem, agents, np.array([key], np.uint64), generation))

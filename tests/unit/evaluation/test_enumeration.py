@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bbsd.evaluation import NotEnumerable, agents_of, detailed, enumerated, weighted_evaluation
+from bbsd.evaluation import NotEnumerable, agents_of, detailed_outcomes, enumerate_starts, weighted_evaluation
 from bbsd.kernel.streams import fold
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import shipped
@@ -24,9 +24,9 @@ def starting(x="0", y="0", s="0", reward="x + y"):
 
 def exact(problem):
     """The exact evaluation of one agent, and the returns and weights that it comes from."""
-    every, weights = enumerated(problem)
+    every, weights = enumerate_starts(problem)
     agent = random_agents(problem, 0, 1)
-    outcomes = list(detailed(every, agent, np.arange(len(weights), dtype=np.uint64), 1))
+    outcomes = list(detailed_outcomes(every, agent, np.arange(len(weights), dtype=np.uint64), 1))
     return (
         weighted_evaluation(every, outcomes, weights),
         np.concatenate([o.returns for o in outcomes]),
@@ -83,14 +83,14 @@ def test_without_draws_there_is_one_start():
 )
 def test_what_cannot_be_enumerated_says_why(problem, message):
     with pytest.raises(NotEnumerable, match=message):
-        enumerated(problem())
+        enumerate_starts(problem())
 
 
 def test_the_abstract_problem_is_what_brute_force_finds():
     problem = problem_of(shipped("abstract"), seed=3, lanes=25)
     policy = np.array(problem.meaning.constants.plain("policy"), int)
     agents = random_agents(problem, fold(3, 4), 4)
-    every, weights = enumerated(problem)
+    every, weights = enumerate_starts(problem)
     for agent in range(4):
         architecture = agents.architecture(agent)
         right = 0
@@ -103,5 +103,7 @@ def test_the_abstract_problem_is_what_brute_force_finds():
                 ]
                 right += bool(said) and said[0] + 1 == policy[row, column]
         keys = np.arange(len(weights), dtype=np.uint64)
-        found = weighted_evaluation(every, detailed(every, agents_of([architecture]), keys, 1), weights)
+        found = weighted_evaluation(
+            every, detailed_outcomes(every, agents_of([architecture]), keys, 1), weights
+        )
         assert found.mean == pytest.approx((right - (25 - right)) / 25)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bbsd.evaluation import agents_of, detailed, episodes, returns_of
+from bbsd.evaluation import agents_of, detailed_outcomes, episodes, returns_of
 from bbsd.kernel.keys import keys, own_keys
 from bbsd.solver.random_agents import random_agents
 from tests.unit.problems import RICH, problem_of
@@ -29,7 +29,7 @@ def test_agents_may_have_episodes_of_their_own(problem, monkeypatch):
         alone = agents_of([agents.architecture(agent)])
         np.testing.assert_array_equal(returns_of(problem, alone, streams[agent], 1)[0], returns[agent])
     monkeypatch.setattr(episodes, "BATCH", 5)
-    outcomes = detailed(problem, agents, streams, 1)
+    outcomes = detailed_outcomes(problem, agents, streams, 1)
     np.testing.assert_array_equal(np.concatenate([each.returns for each in outcomes]), returns.ravel())
 
 
@@ -45,7 +45,7 @@ def test_batches_change_nothing(problem, batch, monkeypatch):
     expected = returns_of(problem, agents, streams, 1)
     monkeypatch.setattr(episodes, "BATCH", batch)
     np.testing.assert_array_equal(returns_of(problem, agents, streams, 1), expected)
-    outcomes = list(detailed(problem, agents, streams, 1))
+    outcomes = list(detailed_outcomes(problem, agents, streams, 1))
     assert [len(outcome.returns) for outcome in outcomes] == [batch] * (12 // batch) + [12 % batch] * (
         12 % batch > 0
     )
@@ -58,7 +58,7 @@ def test_agents_are_taken_by_index_and_given_other_structures(problem):
     assert len(chosen) == 3
     np.testing.assert_array_equal(chosen.members, agents.members[[2, 0, 2]])
     np.testing.assert_array_equal(chosen.structures, agents.structures[[2, 0, 2]])
-    turned = agents.living(agents.structures[:, ::-1])
+    turned = agents.with_structures(agents.structures[:, ::-1])
     np.testing.assert_array_equal(turned.architecture(1).structure, agents.structures[1, ::-1])
     np.testing.assert_array_equal(turned.architecture(1).tables[0], agents.pools[0][1])
 

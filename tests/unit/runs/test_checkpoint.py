@@ -7,17 +7,17 @@ import pytest
 
 from bbsd.architecture import Architecture
 from bbsd.runs import checkpoint
-from bbsd.runs.checkpoint import CheckpointError, Progress
-from bbsd.solver.generation import beginning, next_generation
+from bbsd.runs.checkpoint import CheckpointError, RunState
+from bbsd.solver.generation import initial_state, next_generation
 from tests.unit.solver.problems import guess
 
 
 def progress(n_generations):
     problem, settings = guess()
-    state = beginning(problem, settings, 1)
+    state = initial_state(problem, settings, 1)
     for _ in range(n_generations):
         state, _ = next_generation(state, problem, settings, 1)
-    return Progress(0, state)
+    return RunState(0, state)
 
 
 def leaves(value):

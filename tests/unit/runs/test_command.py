@@ -1,56 +1,9 @@
-import pytest
-
-from bbsd.runs.command import Command, answers
+from bbsd.runs.command import Command
 from bbsd.runs.folder import Folder
 from tests.unit.solver.problems import guess
 
 
-@pytest.fixture
-def command(tmp_path):
-    return Command(*guess(lanes=5), seed=11, n_runs=2, folder=Folder(tmp_path))
-
-
-def plain(architectures):
-    return [([*map(list, each.tables)], each.structure.tolist()) for each in architectures]
-
-
-def test_every_run_is_completed_and_told_of_in_its_order(command):
-    told = []
-    found = answers(command, 1, told.append)
-    assert len(found) == 2
-    assert [(line["run"], line["generation"]) for line in told] == [
-        (r, g) for r in (1, 2) for g in (1, 2, 3, 4)
-    ]
-    assert plain([command.answer(0), command.answer(1)]) == plain(found)
-
-
-def test_a_generation_is_kept_before_it_is_told(command):
-    def tell(line):
-        assert command.records(line["run"] - 1).lines()[-1] == line
-
-    answers(command, 1, tell)
-
-
-def test_what_is_done_is_not_done_again(command):
-    first, told = command.complete(1), []
-    found = answers(command, 1, told.append)
-    assert {line["run"] for line in told} == {1}
-    assert plain(found[1:]) == plain([first])
-
-
-def test_a_run_that_was_stopped_goes_on(command):
-    def stop(line):
-        if line["generation"] == 3:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        answers(command, 1, stop)
-    assert command.answer(0) is None
-    told = []
-    answers(command, 1, told.append)
-    assert (told[0]["run"], told[0]["generation"]) == (1, 4)
-
-
-def test_threads_are_those_of_the_problem(command):
+def test_threads_are_those_of_the_problem(tmp_path):
+    command = Command(*guess(lanes=5), seed=11, n_runs=2, folder=Folder(tmp_path))
     assert command.with_threads(3).problem.jobs == 3
     assert command.problem.jobs == 1

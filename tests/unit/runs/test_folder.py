@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.runs.folder import Folder, FolderError, identity, new_folder, old_folder
+from bbsd.runs.folder import Folder, FolderError, folder_to_resume, identity, new_folder
 
 WHO = identity("a spec", ("design.sharing=value",), 3, 2)
 
@@ -35,18 +35,18 @@ def test_the_metrics_of_the_only_run_are_left_as_they_are(folder):
 
 
 def test_a_note_tells_what_was_run_and_with_what(folder):
-    folder.write_note(WHO)
-    note = json.loads(folder.note.read_text())
+    folder.write_run_file(WHO)
+    note = json.loads(folder.run_file.read_text())
     assert (note["format"], note["seed"], note["runs"], note["set"]) == (2, 3, 2, ["design.sharing=value"])
     assert len(note["spec_sha256"]) == 64
     assert "numba" in note["versions"]
     assert "result" not in note
-    folder.write_note(WHO, {"return": 5})
-    assert json.loads(folder.note.read_text())["result"] == {"return": 5}
+    folder.write_run_file(WHO, {"return": 5})
+    assert json.loads(folder.run_file.read_text())["result"] == {"return": 5}
 
 
 def test_only_the_same_is_gone_on_with(folder):
-    folder.write_note(WHO)
+    folder.write_run_file(WHO)
     assert folder.is_of(WHO)
     others = [
         identity("another spec", WHO.overrides, 3, 2),
@@ -59,7 +59,7 @@ def test_only_the_same_is_gone_on_with(folder):
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", "no note"])
 def test_what_is_no_note_is_of_nothing(folder, text):
-    folder.note.write_text(text)
+    folder.run_file.write_text(text)
     assert not folder.is_of(WHO)
 
 
@@ -109,15 +109,15 @@ def test_the_newest_default_folder_of_the_same_is_gone_on_with(tmp_path, monkeyp
     monkeypatch.chdir(tmp_path)
     other = identity("a spec", (), 3, 2)
     for who in (WHO, WHO, other):
-        new_folder(None, "lift", 3).write_note(who)
-    assert old_folder(None, "lift", WHO).path == Path("runs/lift-seed3-2")
-    assert old_folder(None, "lift", other).path == Path("runs/lift-seed3-3")
+        new_folder(None, "lift", 3).write_run_file(who)
+    assert folder_to_resume(None, "lift", WHO).path == Path("runs/lift-seed3-2")
+    assert folder_to_resume(None, "lift", other).path == Path("runs/lift-seed3-3")
     with pytest.raises(FolderError, match="there is no run"):
-        old_folder(None, "push", WHO)
+        folder_to_resume(None, "push", WHO)
 
 
 def test_a_wanted_folder_must_be_of_the_same(tmp_path):
     with pytest.raises(FolderError, match="holds no run of this spec"):
-        old_folder(tmp_path, "lift", WHO)
-    Folder(tmp_path).write_note(WHO)
-    assert old_folder(tmp_path, "lift", WHO).path == tmp_path
+        folder_to_resume(tmp_path, "lift", WHO)
+    Folder(tmp_path).write_run_file(WHO)
+    assert folder_to_resume(tmp_path, "lift", WHO).path == tmp_path

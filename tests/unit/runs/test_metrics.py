@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from bbsd.runs.metrics import diversity, line
-from bbsd.solver.generation import Census, beginning
+from bbsd.solver.generation import Census, initial_state
 from tests.unit.solver.problems import guess
 
 
 def test_a_line_tells_of_the_generation():
     problem, settings = guess()
-    state = beginning(problem, settings, 1)
+    state = initial_state(problem, settings, 1)
     census = Census(
         fitness=np.array([1.0, 4.0, 4.0]),
         lifetime_fitness=np.array([0.0, 1.0, 5.0]),
@@ -29,7 +29,7 @@ def test_a_line_tells_of_the_generation():
 def test_one_agent_has_no_spread():
     problem, settings = guess()
     census = Census(np.array([1.0]), np.array([1.0]), np.array([[0, 1, 2]]))
-    assert line(0, beginning(problem, settings, 1), census, problem)["sd"] == 0
+    assert line(0, initial_state(problem, settings, 1), census, problem)["sd"] == 0
 
 
 @pytest.mark.parametrize(

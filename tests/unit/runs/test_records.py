@@ -26,10 +26,10 @@ def lines_of(records):
 
 
 def test_what_is_saved_is_gone_on_from(records, lived):
-    assert records.progress() is None
+    assert records.load() is None
     for progress, line in lived[:2]:
         records.save(progress, line)
-    found = records.progress()
+    found = records.load()
     assert (found.run, found.state.generation, found.answer) == (1, 2, None)
     assert lines_of(records) == [(2, 1), (2, 2)]
 
@@ -37,7 +37,7 @@ def test_what_is_saved_is_gone_on_from(records, lived):
 def test_an_answer_is_kept_without_a_line(records, lived):
     for progress, line in lived:
         records.save(progress, line)
-    assert records.progress().answer.structure.tolist() == lived[-1][0].answer.structure.tolist()
+    assert records.load().answer.structure.tolist() == lived[-1][0].answer.structure.tolist()
     assert lines_of(records) == [(2, 1), (2, 2), (2, 3), (2, 4)]
 
 
@@ -47,14 +47,14 @@ def test_metrics_are_cut_back_to_the_state(records, lived):
     before = records.metrics.read_bytes()
     with records.metrics.open("a") as file:  # as if killed between the two
         file.write(json.dumps(lived[3][1]) + "\n" + '{"run": 1, "gener')
-    records.progress()
+    records.load()
     assert records.metrics.read_bytes() == before
 
 
 def test_metrics_without_a_state_are_begun_anew(records):
     records.path.mkdir()
     records.metrics.write_text('{"run": 1, "generation": 1}\n')
-    assert records.progress() is None
+    assert records.load() is None
     assert records.lines() == []
 
 
@@ -70,4 +70,4 @@ def test_a_damaged_checkpoint_is_an_error_that_says_what_to_do(records, lived):
     path = records.path / "checkpoint.npz"
     path.write_bytes(path.read_bytes()[:-3])
     with pytest.raises(FolderError, match=r"is damaged.*remove the folder to start again"):
-        records.progress()
+        records.load()

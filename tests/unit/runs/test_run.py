@@ -3,10 +3,9 @@ from itertools import islice
 
 import pytest
 
-from bbsd.evaluation import agents_of, detailed, evaluation
-from bbsd.kernel.keys import keys
 from bbsd.runs import checkpoint
-from bbsd.runs.run import generations, judge, run_key, start
+from bbsd.runs.run import generations, run_key, start
+from bbsd.solver.judgement import judge
 from bbsd.solver.settings import settings_of
 from tests.unit.problems import RICH, problem_of
 from tests.unit.solver.problems import guess
@@ -86,25 +85,6 @@ def test_a_design_is_judged_on_fresh_episodes_and_is_better_than_random(uninterr
     assert evaluated.mean > random.high
     assert (lifetime.count, random.count) == (12, 1000)
     assert lifetime.mean <= evaluated.mean + 0.5
-
-
-def last(steps):
-    *_, (progress, _) = steps
-    return progress.answer
-
-
-def test_the_best_of_the_runs_answers_is_taken():
-    problem, settings = guess(lanes=50)
-    answers = [
-        last(generations(start(problem, settings, SEED, run), problem, settings, SEED)) for run in range(3)
-    ]
-    best = judge(answers, problem, settings, SEED)
-    means = []
-    for each in answers:
-        outcomes = detailed(problem, agents_of([each]), keys(1, 0, 2000), 4)
-        means.append(evaluation(problem, outcomes, 1).mean)
-    outcomes = detailed(problem, agents_of([best.architecture]), keys(1, 0, 2000), 4)
-    assert evaluation(problem, outcomes, 1).mean == pytest.approx(max(means), abs=0.05)
 
 
 def test_a_given_structure_is_designed_and_judged_without_a_culture(tmp_path):

@@ -5,7 +5,8 @@ import pytest
 
 from bbsd.errors import UsageError
 from bbsd.runs import workers
-from bbsd.runs.command import Command, answers
+from bbsd.runs.answers import complete_runs
+from bbsd.runs.command import Command
 from bbsd.runs.folder import Folder
 from bbsd.runs.processes import waiting
 from bbsd.runs.signals import interrupts_request_stop
@@ -38,7 +39,7 @@ def plain(architectures):
 def test_runs_side_by_side_have_the_answers_and_records_of_runs_one_after_the_other(command):
     alone, together, told = command("alone"), command("together"), []
     found = side_by_side(together, [*range(RUNS)], 2, told.append)
-    assert plain(found[run] for run in range(RUNS)) == plain(answers(alone, 1))
+    assert plain(found[run] for run in range(RUNS)) == plain(complete_runs(alone, 1))
     for run in range(RUNS):
         assert together.records(run).lines() == alone.records(run).lines()
         assert [line for line in told if line["run"] == run + 1] == alone.records(run).lines()
@@ -49,7 +50,7 @@ def test_workers_that_are_ready_are_taken_also_where_they_are_more_than_needed(c
     with waiting(2) as ready:
         found = side_by_side(together, [1, 2], 2, None, ready)
         assert ready.used
-    assert plain(found[run] for run in (1, 2)) == plain(answers(alone, 1)[1:])
+    assert plain(found[run] for run in (1, 2)) == plain(complete_runs(alone, 1)[1:])
 
 
 def test_an_error_of_who_is_told_stops_all(command):

@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 
 from bbsd.architecture import Architecture
-from bbsd.solver.answer import answer, candidates, different
+from bbsd.solver.answer import answer, candidates, distinct
 from bbsd.solver.culture import Culture
-from bbsd.solver.generation import beginning
+from bbsd.solver.generation import initial_state
 from tests.unit.solver.problems import guess
 
 BEST = (np.array([1, 1, 2, 2], np.uint8), np.array([1, 2, 2, 2], np.uint8), np.array([1], np.uint8))
@@ -18,7 +18,7 @@ IDLE = (np.zeros(4, np.uint8), np.array([0, 0, 2, 0], np.uint8), np.array([1], n
 def state_with(memes, meme_fitness, champions=()):
     """A state whose second individuals are the best ones, with a culture, and champions by tables and structure."""
     problem, settings = guess()
-    state = beginning(problem, settings, 1)
+    state = initial_state(problem, settings, 1)
     pools = (np.stack([IDLE[0], RIGHT[0]]), np.stack([IDLE[1], RIGHT[1]]), np.array([[1]], np.uint8))
     fitness = np.array([[0.0, 1, -np.inf], [0, 1, -np.inf], [0, 9, 9]])
     culture = Culture(np.array(memes, np.int64).reshape(-1, 3), np.array(meme_fitness, np.float64))
@@ -67,7 +67,7 @@ def test_without_a_culture_only_champions_enter():
 def test_of_designs_that_behave_alike_the_first_is_kept():
     problem, _ = guess()
     reckless = [Architecture(tables, np.array([0, 1, 2])) for tables in (RIGHT, IDLE, BEST)]
-    [only] = different(reckless, problem)
+    [only] = distinct(reckless, problem)
     assert only is reckless[0]
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from bbsd.solver import generation as module
 from bbsd.solver import sharing
-from bbsd.solver.generation import beginning, born, next_generation, share
-from bbsd.solver.lifetime import Lives
+from bbsd.solver.generation import initial_state, initial_structures, next_generation, share
+from bbsd.solver.lifetime import Lifetimes
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 
@@ -15,7 +15,7 @@ KEY = 77
 
 def generations(problem, settings, number):
     """The states and the censuses of the first generations; the first state is the beginning."""
-    states, censuses = [beginning(problem, settings, KEY)], []
+    states, censuses = [initial_state(problem, settings, KEY)], []
     for _ in range(number):
         state, census = next_generation(states[-1], problem, settings, KEY)
         states.append(state)
@@ -33,7 +33,7 @@ def same(first, second):
 
 def test_a_run_begins_with_random_pools_and_nothing_learned():
     problem, settings = guess()
-    state = beginning(problem, settings, KEY)
+    state = initial_state(problem, settings, KEY)
     assert [len(pool) for pool in state.pools] == [5, 5, 1]  # nothing of the third is open
     assert state.generation == 0
     assert (len(state.culture), len(state.champions.fitness)) == (0, 0)
@@ -106,8 +106,10 @@ def test_the_newborn_follow_memes_or_have_random_structures():
     states, _ = generations(problem, settings, 1)
     culture = states[1].culture
     memes = {tuple(meme) for meme in culture.memes.tolist()}
-    assert {tuple(structure) for structure in born(culture, problem, settings, 1, 50).tolist()} <= memes
-    without = born(states[0].culture, problem, settings, 1, 50)
+    assert {
+        tuple(structure) for structure in initial_structures(culture, problem, settings, 1, 50).tolist()
+    } <= memes
+    without = initial_structures(states[0].culture, problem, settings, 1, 50)
     assert len({tuple(structure) for structure in without.tolist()}) == 6  # all orders
 
 
@@ -116,7 +118,12 @@ def test_without_culture_nothing_is_handed_on():
     states, _ = generations(problem, settings, 2)
     assert len(states[2].culture) == 0
     assert (
-        len({tuple(structure) for structure in born(states[2].culture, problem, settings, 1, 50).tolist()})
+        len(
+            {
+                tuple(structure)
+                for structure in initial_structures(states[2].culture, problem, settings, 1, 50).tolist()
+            }
+        )
         == 6
     )
 
@@ -134,7 +141,7 @@ def test_fitness_is_shared_by_the_policy_of_the_spec(policy):
     rng = np.random.default_rng(1)
     fitness, values = rng.normal(size=6), rng.normal(size=(6, 3, 3))
     who = rng.integers(0, 5, (6, 3))
-    lives = Lives(np.zeros((6, 4)), np.zeros((6, 3), np.int64), values)
+    lives = Lifetimes(np.zeros((6, 4)), np.zeros((6, 3), np.int64), values)
     expected = (
         sharing.uniform(fitness, who, 5) if policy == "uniform" else sharing.value_based(values, who, 5)
     )
@@ -157,7 +164,7 @@ def test_a_census_tells_fitness_of_the_last_episodes_and_of_the_lifetime():
 
 def test_another_key_is_another_run():
     problem, settings = guess()
-    state = beginning(problem, settings, KEY)
+    state = initial_state(problem, settings, KEY)
     first, again, other = (next_generation(state, problem, settings, key)[0] for key in (KEY, KEY, KEY + 1))
     assert same(first, again)
     assert not same(first, other)

@@ -5,7 +5,7 @@ import pytest
 
 from bbsd.evaluation import Agents, RewardNotFinite
 from bbsd.kernel.keys import keys
-from bbsd.solver.lifetime import explore, live
+from bbsd.solver.lifetime import explore, run_lifetimes
 from bbsd.solver.random_agents import random_agents
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
@@ -17,7 +17,7 @@ KEY_OF_A_LATE_MISTAKE = 4
 def lives_of(search="sampled", structure="", **changed):
     problem, settings = guess(structure, search=search)
     agents = random_agents(problem, 1, 8)
-    return agents, live(problem, agents, KEYS, 1, replace(settings.learning, **changed))
+    return agents, run_lifetimes(problem, agents, KEYS, 1, replace(settings.learning, **changed))
 
 
 def test_a_lifetime_of_one_episode_is_lived_as_born():
@@ -50,8 +50,8 @@ def test_given_layers_stay_while_open_ones_are_learned(search):
 def test_exact_search_takes_the_best_assignment_of_what_was_learned():
     problem, settings = guess(search="exact")
     agents = random_agents(problem, 1, 8)
-    one = live(problem, agents, KEYS, 1, replace(settings.learning, lifetime=1, last=1))
-    two = live(problem, agents, KEYS, 1, replace(settings.learning, lifetime=2, last=1))
+    one = run_lifetimes(problem, agents, KEYS, 1, replace(settings.learning, lifetime=1, last=1))
+    two = run_lifetimes(problem, agents, KEYS, 1, replace(settings.learning, lifetime=2, last=1))
     orders = [(a, b, 3 - a - b) for a in range(3) for b in range(3) if a != b]
     for agent in range(8):
         worth = {order: sum(one.values[agent, layer, order[layer]] for layer in range(3)) for order in orders}
@@ -80,7 +80,7 @@ def test_by_counters_a_pair_is_worth_its_share_of_the_reinforcement():
     problem, settings = guess("structure: [reckless, even, odd]")
     agents = random_agents(problem, 1, 1)
     learning = replace(settings.learning, lifetime=1, last=1, rate=np.ones(1), estimate="counters")
-    lives = live(problem, agents, keys(1, 0, 1), 1, learning)
+    lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, learning)
     # The reckless one on top says 9 in both steps: -1 a step, all the time.
     assert lives.values.tolist() == [[[0, 0, 0], [0, 0, 0], [0, 0, -1]]]
 
@@ -100,7 +100,7 @@ def test_what_was_earned_under_a_behavior_is_learned_of_it():
     agents = Agents(
         (np.ones((1, 1), np.uint8), np.ones((1, 1), np.uint8)), np.zeros((1, 2), np.int64), np.array([[0, 1]])
     )
-    lives = live(problem, agents, keys(1, 0, 1), 1, replace(settings.learning, lifetime=1, last=1))
+    lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, replace(settings.learning, lifetime=1, last=1))
     assert lives.returns.tolist() == [[22]]
     assert lives.values.tolist() == [[[0.5 * 2, 0], [0, 0.5 * 20]]]  # layers, lowest first, by behaviors
 
@@ -108,9 +108,9 @@ def test_what_was_earned_under_a_behavior_is_learned_of_it():
 def test_agents_live_alike_alone_and_together():
     problem, settings = guess()
     agents = random_agents(problem, 1, 8)
-    together = live(problem, agents, KEYS, 1, settings.learning)
+    together = run_lifetimes(problem, agents, KEYS, 1, settings.learning)
     some = np.array([6, 1])
-    apart = live(problem, agents[some], KEYS[some], 1, settings.learning)
+    apart = run_lifetimes(problem, agents[some], KEYS[some], 1, settings.learning)
     np.testing.assert_array_equal(apart.returns, together.returns[some])
     np.testing.assert_array_equal(apart.structures, together.structures[some])
     np.testing.assert_array_equal(apart.values, together.values[some])
@@ -130,4 +130,4 @@ def test_a_reward_that_is_not_finite_is_told_with_its_generation_and_episode():
     with pytest.raises(
         RewardNotFinite, match=r"bad was inf in step 2 for robot 0 \(generation 7, episode [2-9]"
     ):
-        live(problem, agents, keys(KEY_OF_A_LATE_MISTAKE, 0, 1), 7, learning)
+        run_lifetimes(problem, agents, keys(KEY_OF_A_LATE_MISTAKE, 0, 1), 7, learning)
