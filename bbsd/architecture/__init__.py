@@ -4,8 +4,8 @@ from bbsd.architecture.architecture import Architecture, HolesLeft, given_archit
 from bbsd.architecture.document import designed_text, require_writable
 from bbsd.architecture.policy import JointSpace, behavior_keys, joint_space, policy
 from bbsd.architecture.rules import rules_of
+from bbsd.architecture.spec_changes import spec_changes
 from bbsd.architecture.tidy import tidied
-from bbsd.architecture.written import spec_changes
 
 __all__ = [
     "Architecture",

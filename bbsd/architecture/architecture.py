@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.errors import UsageError
-from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL
 from bbsd.language.meaning.structure import OPEN_LAYER
+from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

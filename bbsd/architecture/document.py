@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.architecture.architecture import Architecture
-from bbsd.architecture.written import MOST_WORDS, NO_WORDS, spec_changes
+from bbsd.architecture.spec_changes import MOST_WORDS, NO_WORDS, spec_changes
 from bbsd.errors import Diagnosis
-from bbsd.language.meaning.rules import OPEN_CELL
 from bbsd.language.meaning.structure import OPEN_LAYER
+from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.text import (
     TooLargeError,
     as_read,

@@ -23,7 +23,7 @@ from bbsd.expression.tree import (
     parts,
 )
 from bbsd.expression.vocabulary import DRAWS, FUNCTIONS
-from bbsd.language.written import expressions_in
+from bbsd.language.field_types import expressions_in
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
@@ -42,7 +42,7 @@ CALLS = {function.operation: name for name, function in FUNCTIONS.items()} | {
 }
 
 
-def settled_constants(meaning: Meaning) -> dict[DataPath, Data]:
+def drawn_constants(meaning: Meaning) -> dict[DataPath, Data]:
     """The values of the constants that contain draws, as plain data at their paths."""
     return {
         ("constants", name): _datum(meaning.constants.values[name])

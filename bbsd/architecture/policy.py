@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
-    from bbsd.language.meaning.labels import Labels
+    from bbsd.language.meaning.tables.labels import Labels
 
 MAX_JOINT_CELLS = 200_000
 MOST_AT_ONCE = 2_000_000
@@ -45,7 +45,7 @@ class Dimension(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class Projection:
     """What one behavior sees of the joint space.
 
     `axes` are the dimensions of its inputs, `sizes` their numbers of cells. It is excited where the dimension
@@ -67,7 +67,7 @@ class JointSpace:
     """
 
     dimensions: Mapping[str, Labels]
-    views: tuple[View, ...]
+    projections: tuple[Projection, ...]
     first_actions: tuple[int, ...]
     effects: NDArray[np.uint16]
 
@@ -98,8 +98,8 @@ def joint_space(meaning: Meaning) -> JointSpace:
         key, _ = _excitement(module, seen)
         if key is not None:
             seen.setdefault(key, Dimension(module.name, EXCITEMENT, module.name))
-    views = tuple(_view(module, [*seen]) for module in modules)
-    return JointSpace(_named(seen.values()), views, _first_actions(modules), _effects(modules))
+    projections = tuple(_view(module, [*seen]) for module in modules)
+    return JointSpace(_named(seen.values()), projections, _first_actions(modules), _effects(modules))
 
 
 def _named(dimensions: Iterable[Dimension]) -> dict[str, Labels]:
@@ -110,11 +110,11 @@ def _named(dimensions: Iterable[Dimension]) -> dict[str, Labels]:
     return named
 
 
-def _view(module: Module, keys: Sequence[Key]) -> View:
+def _view(module: Module, keys: Sequence[Key]) -> Projection:
     axes = tuple(keys.index(_input(module, place)) for place in range(len(module.inputs)))
     sizes = tuple(len(cells) for cells in module.inputs.values())
     key, index = _excitement(module, keys)
-    return View(axes, sizes, None if key is None else keys.index(key), index)
+    return Projection(axes, sizes, None if key is None else keys.index(key), index)
 
 
 def _input(module: Module, place: int) -> Key:
@@ -186,7 +186,7 @@ def decisions(space: JointSpace, behavior: int, tables: NDArray[np.uint8]) -> ND
 
     Tables (..., n_cells); what comes back broadcasts to (..., *sizes).
     """
-    view, mesh = space.views[behavior], np.ogrid[tuple(slice(size) for size in space.sizes)]
+    view, mesh = space.projections[behavior], np.ogrid[tuple(slice(size) for size in space.sizes)]
     is_excited = (
         mesh[view.excitement] == view.excited_at if view.excitement is not None else view.excited_at == 1
     )
@@ -195,7 +195,7 @@ def decisions(space: JointSpace, behavior: int, tables: NDArray[np.uint8]) -> ND
 
 def own_cells(space: JointSpace, behavior: int) -> NDArray[np.int64]:
     """The cell of a behavior's own table for the joint space; it broadcasts to `sizes`."""
-    view, mesh = space.views[behavior], np.ogrid[tuple(slice(size) for size in space.sizes)]
+    view, mesh = space.projections[behavior], np.ogrid[tuple(slice(size) for size in space.sizes)]
     cells = np.zeros((1,) * len(space.sizes), np.int64)
     for axis, size in zip(view.axes, view.sizes, strict=True):
         cells = cells * size + mesh[axis]

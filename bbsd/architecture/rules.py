@@ -12,8 +12,8 @@ import numpy as np
 from bbsd.architecture.boxes import FREE, KEEP, cover, n_words
 from bbsd.expression.scope import Findings
 from bbsd.language.meaning.partitions import TRUTH_CELLS
-from bbsd.language.meaning.rules import OPEN_CELL
-from bbsd.language.meaning.rules import table as table_of
+from bbsd.language.meaning.tables.rules import table_of_rules
+from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise
 
 if TYPE_CHECKING:
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.boxes import Box
-    from bbsd.language.meaning.labels import Labels
-    from bbsd.language.meaning.rules import Inputs
+    from bbsd.language.meaning.tables.labels import Labels
+    from bbsd.language.meaning.tables.table import Inputs
     from bbsd.language.models import Rule
     from bbsd.text import Data
 
@@ -104,7 +104,9 @@ def conditions(box: Box, inputs: Inputs) -> dict[str, Data]:
 
 
 def _cells(rules: Sequence[Rule], inputs: Inputs, actions: Sequence[str]) -> NDArray[np.int64]:
-    return np.frombuffer(table_of(rules, inputs, actions, (), Findings()).given, np.uint8).astype(np.int64)
+    return np.frombuffer(table_of_rules(rules, inputs, actions, (), Findings()).given, np.uint8).astype(
+        np.int64
+    )
 
 
 def _decision(rule: Rule) -> str:

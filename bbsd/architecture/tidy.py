@@ -13,7 +13,7 @@ import numpy as np
 from bbsd.architecture.architecture import Architecture
 from bbsd.architecture.policy import decisions, joint_space, own_cells
 from bbsd.architecture.rules import boxes_of, most_common
-from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL
+from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

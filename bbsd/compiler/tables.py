@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL
+from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from bbsd.compiler import Problem
     from bbsd.compiler.details import Column
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.labels import Labels
     from bbsd.language.meaning.names import Slot
+    from bbsd.language.meaning.tables.labels import Labels
 
 EXPECTATION = ("", "failed", "held")
 """What the numbers of a record mean."""

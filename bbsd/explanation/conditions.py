@@ -8,7 +8,7 @@ import numpy as np
 
 from bbsd.architecture.boxes import FREE, KEEP, cover
 from bbsd.architecture.rules import cell_words, n_words_of, sizes_of
-from bbsd.architecture.written import MOST_WORDS
+from bbsd.architecture.spec_changes import MOST_WORDS
 from bbsd.language.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture.boxes import Box
-    from bbsd.language.meaning.labels import Labels
-    from bbsd.language.meaning.rules import Inputs
+    from bbsd.language.meaning.tables.labels import Labels
+    from bbsd.language.meaning.tables.table import Inputs
 
 
 def condition_text(box: Box, inputs: Inputs) -> str:

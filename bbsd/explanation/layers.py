@@ -10,7 +10,7 @@ import numpy as np
 from bbsd.architecture.boxes import first_match
 from bbsd.architecture.policy import controlling, decisions, joint_space, own_cells
 from bbsd.architecture.rules import boxes_of, n_words_of, sizes_of
-from bbsd.architecture.written import MOST_WORDS
+from bbsd.architecture.spec_changes import MOST_WORDS
 from bbsd.explanation.conditions import condition_text, condition_texts
 from bbsd.explanation.vocabulary import GlossaryEntry, actions_of, inputs_of
 from bbsd.language.models import NO_ACTION_TEXT
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture, JointSpace
+    from bbsd.language.field_types import Expression
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
-    from bbsd.language.written import Expression
 
 
 @dataclass(frozen=True, slots=True)

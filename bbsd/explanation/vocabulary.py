@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from bbsd.language.field_types import Expression
     from bbsd.language.models import Behavior, PartitionText, Spec
-    from bbsd.language.written import Expression
 
 
 class GlossaryEntry(NamedTuple):

@@ -10,7 +10,7 @@ FREE = "x-"
 """What the keys begin with that are kept and ignored."""
 
 
-def block(value: object) -> object:
+def without_free_keys(value: object) -> object:
     """A mapping without its free keys; nothing under a key is an empty mapping."""
     if value is None:
         return {}
@@ -21,7 +21,7 @@ def block(value: object) -> object:
 
 K = TypeVar("K")
 V = TypeVar("V")
-Block = Annotated[dict[K, V], BeforeValidator(block)]
+Entries = Annotated[dict[K, V], BeforeValidator(without_free_keys)]
 """A mapping from names of the spec's own."""
 
 
@@ -36,7 +36,7 @@ class Part(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _without_free_keys(cls, data: Any) -> Any:  # noqa: ANN401 - whatever the file holds
-        found = block(data)
+        found = without_free_keys(data)
         if not isinstance(found, dict):
             return found
         return {key: value for key, value in found.items() if value is not None or not cls._holds_block(key)}

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag
 
 from bbsd.language.base import Part
-from bbsd.language.written import Expression, ExpressionText, Whole, expression, shape
+from bbsd.language.field_types import Expression, ExpressionText, Whole, expression, shape
 
 HARD_MUTATION = "0.01 / log2(generation + 1) if generation <= 0.8 * generations else 0"
 

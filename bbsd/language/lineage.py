@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bbsd.errors import Diagnosis, SpecError, did_you_mean
+from bbsd.language.field_types import kind_of
 from bbsd.language.validation import child, has
-from bbsd.language.written import kind_of
 from bbsd.text import Source, differences, read, replace_blocks
 
 if TYPE_CHECKING:

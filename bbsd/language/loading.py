@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from bbsd.errors import Diagnosis, SpecError
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.language.lineage import lineage
-from bbsd.language.meaning import Meaning, mean
+from bbsd.language.meaning import Meaning, elaborate
 from bbsd.language.overrides import FILE as OVERRIDES
 from bbsd.language.overrides import overrides_source, read_overrides, with_overrides
-from bbsd.language.recovery import rest_of
+from bbsd.language.recovery import recover
 from bbsd.language.validation import existing, form_mistakes, validate
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from bbsd.language.lineage import Lineage
     from bbsd.language.models import Spec
     from bbsd.language.overrides import Override
-    from bbsd.language.validation import Told
+    from bbsd.language.validation import LocatedMistake
     from bbsd.text import Data, Source
 
 MAX_SHOWN = 50
@@ -70,11 +70,13 @@ def check(source: Source, seed: int = 0) -> tuple[Diagnosis, ...]:
     return ()
 
 
-def _examined(data: Data, seed: int, *, small: bool = True) -> tuple[Spec | None, Meaning | None, list[Told]]:
+def _examined(
+    data: Data, seed: int, *, small: bool = True
+) -> tuple[Spec | None, Meaning | None, list[LocatedMistake]]:
     """The model and the meaning of plain data, or their mistakes: those of the form alone where they are large."""
     spec, errors = validate(data)
     if spec:
-        meaning, told = mean(spec, seed)
+        meaning, told = elaborate(spec, seed)
         return spec, meaning, list(told)
     return (
         None,
@@ -83,16 +85,16 @@ def _examined(data: Data, seed: int, *, small: bool = True) -> tuple[Spec | None
     )
 
 
-def _mistakes_in_the_rest(data: Data, errors: Sequence[ErrorDetails], seed: int) -> list[Told]:
-    rest = rest_of(data, errors)
+def _mistakes_in_the_rest(data: Data, errors: Sequence[ErrorDetails], seed: int) -> list[LocatedMistake]:
+    rest = recover(data, errors)
     if rest is None:
         return []
-    _, told = mean(rest.spec, seed, rest.broken)
+    _, told = elaborate(rest.spec, seed, rest.broken)
     return [(path, mistake) for path, mistake in told if mistake.code not in rest.dependent]
 
 
 def _diagnoses(
-    told: Iterable[Told], files: Lineage, data: Data, overrides: Sequence[Override]
+    told: Iterable[LocatedMistake], files: Lineage, data: Data, overrides: Sequence[Override]
 ) -> list[Diagnosis]:
     """All mistakes in the order of the text; what YAML itself already stumbled over is said once."""
     stumbled = {_start(each.place) for each in files.mistakes}
@@ -113,7 +115,7 @@ def _has_merged(files: Lineage) -> bool:
     return any(each.code == "BB007" for each in files.mistakes)
 
 
-def _place(told: Told, files: Lineage, data: Data, overrides: Sequence[Override]) -> Place:
+def _place(told: LocatedMistake, files: Lineage, data: Data, overrides: Sequence[Override]) -> Place:
     path, mistake = told
     there = existing(path, data)
     span = None if mistake.span in (KEY, WHOLE) or there != path else mistake.span

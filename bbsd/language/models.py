@@ -7,10 +7,9 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
-from bbsd.language.base import Block, Part
+from bbsd.language.base import Entries, Part
 from bbsd.language.design import Design
-from bbsd.language.view import View  # noqa: TC001 - pydantic reads annotations
-from bbsd.language.written import (
+from bbsd.language.field_types import (
     CellText,
     DefinitionText,
     ExpressionText,
@@ -21,12 +20,13 @@ from bbsd.language.written import (
     kind_of,
     shape,
 )
+from bbsd.language.view import View  # noqa: TC001 - pydantic reads annotations
 
 OPEN = "open"
 NO_ACTION_TEXT = "no action"
 OTHERWISE = "otherwise"
 
-NamedCells = Block[CellText, ExpressionText]
+NamedCells = Entries[CellText, ExpressionText]
 """Named cells: the first condition that holds; `otherwise` as the last one's condition."""
 
 PartitionText = Annotated[
@@ -40,19 +40,19 @@ class Environment(Part):
 
     robots: Whole = Field(1, ge=1, le=64, description="Robots that carry the architecture.")
     steps: Whole = Field(ge=1, le=10_000_000, description="Steps of an episode at most.")
-    world: Block[ValueNameText, ExpressionText] = Field(
+    world: Entries[ValueNameText, ExpressionText] = Field(
         {}, description="Values the team has once: name and starting value."
     )
-    state: Block[ValueNameText, ExpressionText] = Field(
+    state: Entries[ValueNameText, ExpressionText] = Field(
         {}, description="Values each robot has: name and starting value."
     )
-    definitions: Block[DefinitionText, ExpressionText] = Field(
+    definitions: Entries[DefinitionText, ExpressionText] = Field(
         {}, description="Names for expressions, with or without parameters."
     )
-    dynamics: Block[ValueNameText, ExpressionText] = Field(
+    dynamics: Entries[ValueNameText, ExpressionText] = Field(
         {}, description="The next value of world and state names; others stay."
     )
-    sensors: Block[ValueNameText, PartitionText] = Field(
+    sensors: Entries[ValueNameText, PartitionText] = Field(
         {}, description="What a robot senses: an expression, or a partition that behaviors share."
     )
     ends: ExpressionText | None = Field(
@@ -67,7 +67,7 @@ def _decision(value: object) -> str:
     return " ".join(value.split())
 
 
-Decision = Annotated[str, BeforeValidator(_decision)]
+DecisionText = Annotated[str, BeforeValidator(_decision)]
 """An action's name, `no action`, or `open`."""
 
 
@@ -78,16 +78,16 @@ def _cells(value: object) -> object:
 class When(Part):
     """A rule for some cells: what to do where every named input is in one of the cells given."""
 
-    when: Block[str, Annotated[list[CellText], BeforeValidator(_cells), Field(min_length=1)]] = Field(
+    when: Entries[str, Annotated[list[CellText], BeforeValidator(_cells), Field(min_length=1)]] = Field(
         description="For each named input, its cell or cells; an input not named matches all."
     )
-    do: Decision = Field(description="An action, no action, or open.")
+    do: DecisionText = Field(description="An action, no action, or open.")
 
 
 class Otherwise(Part):
     """A rule for every cell that no rule before it matches."""
 
-    otherwise: Decision = Field(description="An action, no action, or open.")
+    otherwise: DecisionText = Field(description="An action, no action, or open.")
 
 
 def _kind_of_rule(value: object) -> str:
@@ -109,13 +109,13 @@ class Behavior(Part):
     )
     inputs: Annotated[
         Annotated[list[str], Tag("<other>")]
-        | Annotated[Block[ValueNameText, PartitionText], Tag("<mapping>")],
+        | Annotated[Entries[ValueNameText, PartitionText], Tag("<mapping>")],
         Discriminator(shape),
     ] = Field(
         {},
         description="Its own partitions, or names: of sensors that are, of truths in the state; none: one cell.",
     )
-    actions: Block[NameText, Block[str, ExpressionText]] = Field(
+    actions: Entries[NameText, Entries[str, ExpressionText]] = Field(
         description="For each action, the state it sets and the value."
     )
     rules: list[RuleText] | None = Field(
@@ -139,16 +139,16 @@ class Spec(Part):
     extends: str | None = Field(
         None, description="A spec in this folder or below that this one is laid over; null there takes away."
     )
-    constants: Block[ValueNameText, TableText] = Field(
+    constants: Entries[ValueNameText, TableText] = Field(
         {}, description="Numbers, lists and tables that do not change in a run."
     )
     environment: Environment = Field(description="The world, the robots, and what they sense.")
     view: View | None = Field(None, description="How an episode is drawn from above; none: as lines only.")
-    behaviors: Block[NameText, Behavior] = Field(min_length=1, description="The behavior modules.")
+    behaviors: Entries[NameText, Behavior] = Field(min_length=1, description="The behavior modules.")
     structure: list[str] | None = Field(
         None, description="Behaviors from the highest layer down, or open; none: to be learned."
     )
-    reward: Block[NameText, ExpressionText] = Field(
+    reward: Entries[NameText, ExpressionText] = Field(
         min_length=1, description="The terms of the reinforcement, summed at each step."
     )
     design: Design = Field(Design(), description="How the holes are filled.")

@@ -64,7 +64,7 @@ STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Rest:
+class Recovered:
     """A spec with stand-ins, names about which nothing is to be said, and codes of what may only follow."""
 
     spec: Spec
@@ -72,7 +72,7 @@ class Rest:
     dependent: frozenset[str]
 
 
-def rest_of(data: Data, errors: Sequence[ErrorDetails]) -> Rest | None:
+def recover(data: Data, errors: Sequence[ErrorDetails]) -> Recovered | None:
     """What is left of a spec without what is wrong with it; None where that says nothing."""
     broken, dependent = {UNKNOWN}, set[str]()
     for _ in range(ROUNDS):
@@ -88,7 +88,7 @@ def rest_of(data: Data, errors: Sequence[ErrorDetails]) -> Rest | None:
         data = mended
         spec, errors = validate(data)
         if spec:
-            return Rest(spec, frozenset(broken), frozenset(dependent))
+            return Recovered(spec, frozenset(broken), frozenset(dependent))
     return None
 
 

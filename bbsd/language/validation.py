@@ -11,9 +11,9 @@ from pydantic import ValidationError
 from bbsd.errors import did_you_mean
 from bbsd.expression.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.vocabulary import RESERVED
+from bbsd.language.field_types import kind_of
 from bbsd.language.keys import blocks_with, field_at, fields_at
 from bbsd.language.models import Spec
-from bbsd.language.written import kind_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 MAX_ERRORS = 1000
 MAX_SHOWN = 40
 
-Told = tuple["Path", Mistake]
+LocatedMistake = tuple["Path", Mistake]
 """A mistake and where in the spec it is."""
 
 
@@ -39,7 +39,7 @@ def validate(data: Data) -> tuple[Spec | None, list[ErrorDetails]]:
         return None, error.errors(include_url=False)[:MAX_ERRORS]
 
 
-def form_mistakes(errors: Sequence[ErrorDetails], data: Data) -> list[Told]:
+def form_mistakes(errors: Sequence[ErrorDetails], data: Data) -> list[LocatedMistake]:
     """The mistakes that errors stand for, each wrong thing once."""
     guessed = {_guess(error, errors) for error in errors if error["type"] == "extra_forbidden"}
     unreadable = frozenset().union(*map(names_lost, errors)) - RESERVED

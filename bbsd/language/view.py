@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from bbsd.language.base import Block, Part
-from bbsd.language.written import ExpressionText, NameText, TableText  # noqa: TC001 - pydantic reads annotations
+from bbsd.language.base import Entries, Part
+from bbsd.language.field_types import ExpressionText, NameText, TableText  # noqa: TC001 - pydantic reads annotations
 
 
 class View(Part):
@@ -24,6 +24,6 @@ class View(Part):
     grid: TableText | None = Field(
         None, description="Walls as a table, the top row first; what is not 0 stands at `[column, row]`."
     )
-    marks: Block[NameText, TableText] = Field(
+    marks: Entries[NameText, TableText] = Field(
         {}, description="Other places, by name; a radius is drawn as a ring, and what moves leaves a trail."
     )

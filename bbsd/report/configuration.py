@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.language.base import Part
-from bbsd.language.written import Expression
+from bbsd.language.field_types import Expression
 from bbsd.text.writing.writer import entry_lines
 
 if TYPE_CHECKING:

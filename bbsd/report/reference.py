@@ -17,7 +17,7 @@ from bbsd.errors import KINDS
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, RESERVED
 from bbsd.language import design, models, view
 from bbsd.language.base import Part
-from bbsd.language.written import Expression
+from bbsd.language.field_types import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

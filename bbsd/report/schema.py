@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get
 from annotated_types import Ge, Le, MaxLen, MinLen
 
 from bbsd.expression.vocabulary import RESERVED, UNREADABLE
-from bbsd.language import models, view, written
+from bbsd.language import field_types, models, view
 from bbsd.language.base import FREE, Part
-from bbsd.language.written import Expression
+from bbsd.language.field_types import Expression
 from bbsd.text.schema import meaning
 
 if TYPE_CHECKING:
@@ -200,11 +200,11 @@ TYPE_SCHEMAS: Mapping[object, Schema] = {
     str: {"type": "string"},
     NoneType: {"type": "null"},
 }
-READER_SCHEMAS: Mapping[object, Schema] = {written.cell: SCALAR}
+READER_SCHEMAS: Mapping[object, Schema] = {field_types.cell: SCALAR}
 NAME_SCHEMAS: Mapping[object, Schema] = {
-    written.name: _ref("name"),
-    written.value_name: _ref("value_name"),
-    written.definition_key: _ref("definition"),
+    field_types.name: _ref("name"),
+    field_types.value_name: _ref("value_name"),
+    field_types.definition_key: _ref("definition"),
 }
 PLACE_SCHEMA: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 2, "maxItems": 3}, SCALAR]}
 CORNERS_SCHEMA: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 4, "maxItems": 4}, SCALAR]}
@@ -217,6 +217,6 @@ KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
     (view.View, "at"): PLACE_SCHEMA,
     (view.View, "area"): CORNERS_SCHEMA,
-    (view.View, "marks"): {**_mapping(written.NameText, str), "additionalProperties": PLACE_SCHEMA},
+    (view.View, "marks"): {**_mapping(field_types.NameText, str), "additionalProperties": PLACE_SCHEMA},
 }
 """Keys whose values are not what their type says: the model makes one of several ways to write them."""

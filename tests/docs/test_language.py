@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from bbsd.language.loading import check
-from bbsd.language.meaning import mean
+from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from bbsd.report.reference import regenerate
 from bbsd.text import Source, read
@@ -51,4 +51,4 @@ def test_an_example_means_something_in_a_spec(code, text):
         return
     document = read(Source("example.yaml", text))
     assert not document.diagnoses
-    assert mean(Spec.model_validate(merged(AROUND, document.data)), 0)[1] == ()
+    assert elaborate(Spec.model_validate(merged(AROUND, document.data)), 0)[1] == ()

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
 from bbsd.language.loading import load
-from bbsd.language.meaning import mean
+from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from bbsd.text import Source
 from tests.interpreter.cells import given_table
@@ -23,7 +23,7 @@ COMPILED = ("abstract", "object_lifting", "object_lifting_hand", "forager")  # t
 
 
 def meaning_of(spec, seed):
-    meaning, mistakes = mean(spec, seed)
+    meaning, mistakes = elaborate(spec, seed)
     assert mistakes == ()
     return meaning
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Call
 from bbsd.kernel.functions import clamp_index
+from bbsd.language.field_types import Expression
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, When
-from bbsd.language.written import Expression
 from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 
 if TYPE_CHECKING:

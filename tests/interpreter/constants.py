@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.language.written import Expression
+from bbsd.language.field_types import Expression
 from tests.interpreter.draws import draws_of_constant
 from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 

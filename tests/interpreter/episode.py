@@ -15,8 +15,8 @@ from tests.interpreter.expressions import Definition, Moment, Scope, Value, eval
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from bbsd.language.field_types import Expression
     from bbsd.language.models import Spec
-    from bbsd.language.written import Expression
 
 NOBODY = -1
 

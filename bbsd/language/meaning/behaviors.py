@@ -12,18 +12,25 @@ from bbsd.expression.forms import kind_by_form
 from bbsd.expression.graph import Kind, Node
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name, Span
+from bbsd.language.field_types import Expression
 from bbsd.language.meaning.names import alone
-from bbsd.language.meaning.partitions import MAX_CELLS, TRUTH_CELLS, Partition, is_partition, partition
-from bbsd.language.meaning.rules import Inputs, Table, table
-from bbsd.language.meaning.symbols import table_of_text
+from bbsd.language.meaning.partitions import (
+    MAX_CELLS,
+    TRUTH_CELLS,
+    Partition,
+    elaborate_partition,
+    is_partition,
+)
+from bbsd.language.meaning.tables.rules import table_of_rules
+from bbsd.language.meaning.tables.symbols import table_of_text
 from bbsd.language.models import When
-from bbsd.language.written import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
 
     from bbsd.expression.scope import Path, Scope
     from bbsd.language.meaning.names import Moment, Names
+    from bbsd.language.meaning.tables.table import Inputs, Table
     from bbsd.language.models import Behavior, PartitionText
 
 MAX_ACTIONS = 200
@@ -63,7 +70,9 @@ class Module:
         )
 
 
-def module(name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]) -> Module | None:
+def elaborate_behavior(
+    name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]
+) -> Module | None:
     """The meaning of a behavior at the decision; None where its inputs could not be understood."""
     names, path, own = decision.names, ("behaviors", name), alone(decision, name)
     excited = tuple(_excited(written, own, (*path, "excited"), robot) for robot in names.robots)
@@ -98,7 +107,7 @@ def _given(written: Behavior, inputs: Inputs, path: Path, names: Names, silent: 
     """The cells that rules or a table give."""
     actions, findings = list(written.actions), names.findings
     if written.table is None:
-        return table(written.rules, inputs, actions, (*path, "rules"), findings, silent)
+        return table_of_rules(written.rules, inputs, actions, (*path, "rules"), findings, silent)
     if written.rules is not None:
         advice = "keep one of them; what a spec extends is taken away by rules: null or table: null"
         findings.tell((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)
@@ -181,7 +190,7 @@ def _own(cut: PartitionText, decision: Moment, own: Scope, path: Path, robot: in
     sensors = decision.names.spec.environment.sensors
     if isinstance(cut, Expression) and isinstance(cut.tree, Name) and cut.tree.name in sensors:
         return _shared(cut.tree.name, decision, own, path, robot)
-    return partition(cut, own.at(path, robot), path, robot)
+    return elaborate_partition(cut, own.at(path, robot), path, robot)
 
 
 def _kind_by_form(written: PartitionText | None) -> Kind:

@@ -22,13 +22,13 @@ from bbsd.expression.graph import (
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
 from bbsd.kernel import streams
 from bbsd.kernel.functions import clamp_index
-from bbsd.language.meaning.order import among_themselves, in_order, names_in
-from bbsd.language.written import expressions_in
+from bbsd.language.field_types import expressions_in
+from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping
 
-    from bbsd.language.written import Expression, Nested
+    from bbsd.language.field_types import Expression, Nested
 
 GENERATION = "generation"
 
@@ -132,8 +132,10 @@ def read_constants(
 
 
 def _in_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
-    used = {name: names_in(expressions_in(value)) for name, value in written.items() if name not in unusable}
-    return in_order(among_themselves(used))
+    used = {
+        name: names_used_in(expressions_in(value)) for name, value in written.items() if name not in unusable
+    }
+    return dependency_order(uses_among(used))
 
 
 def _read(written: Nested, scope: Scope, path: Path) -> Value:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
 from bbsd.expression.tree import frames, names_used
-from bbsd.language.meaning.order import among_themselves, circles, heights
+from bbsd.language.field_types import Expression, expressions_in, signature
+from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
-from bbsd.language.written import Expression, expressions_in, signature
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -22,7 +22,7 @@ MAX_HEIGHT = 600
 """Frames for a chain of names; Python has 1000."""
 
 
-def definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
+def read_definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
     """Each definition by its name; of two by one name the second is told of and passed over."""
     found: dict[str, Definition] = {}
     for key, expression in written.items():
@@ -34,7 +34,7 @@ def definitions(written: Mapping[str, Expression], findings: Findings) -> dict[s
     return found
 
 
-def blocks(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Path]]:
+def shared_namespace(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Path]]:
     """Every name of the shared namespace and the place that makes it."""
     environment = spec.environment
     return [
@@ -46,7 +46,7 @@ def blocks(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Pat
     ]
 
 
-def twice(named: Iterable[tuple[str, Path]], findings: Findings) -> dict[str, Unusable]:
+def report_duplicates(named: Iterable[tuple[str, Path]], findings: Findings) -> dict[str, Unusable]:
     """Names that stand for two things; the second place is told of."""
     first: dict[str, Path] = {}
     found: dict[str, Unusable] = {}
@@ -64,7 +64,9 @@ def _tell_twice(name: str, path: Path, first: Path, findings: Findings) -> None:
     findings.tell(path, "BB025", message, KEY, advice)
 
 
-def unordered(spec: Spec, defined: Mapping[str, Definition], findings: Findings) -> dict[str, Unusable]:
+def report_unordered(
+    spec: Spec, defined: Mapping[str, Definition], findings: Findings
+) -> dict[str, Unusable]:
     """Names whose values would need themselves, or too long a chain of other values; which is told."""
     environment = spec.environment
     derived = {
@@ -75,7 +77,7 @@ def unordered(spec: Spec, defined: Mapping[str, Definition], findings: Findings)
         name: Needs.of([each.tree]) for name, each in (*environment.world.items(), *environment.state.items())
     }
     sensors = {name: Needs.of(_trees(_conditions(each))) for name, each in environment.sensors.items()}
-    places = dict(reversed(blocks(spec, defined)))
+    places = dict(reversed(shared_namespace(spec, defined)))
     found = _circular(constants, places, findings)
     # At the start there are no sensors yet, and later world and state are stored.
     for group in (starts | derived, derived | sensors):
@@ -112,7 +114,7 @@ def _conditions(written: Expression | Mapping[str, Expression]) -> list[Expressi
 def _circular(
     group: Mapping[str, Needs], places: Mapping[str, Path], findings: Findings
 ) -> dict[str, Unusable]:
-    told, involved = circles(among_themselves({name: needs.names for name, needs in group.items()}))
+    told, involved = find_circles(uses_among({name: needs.names for name, needs in group.items()}))
     for circle in told:
         message = f"a circle: {' needs '.join(circle)}"
         advice = "keep one of the values as state, from step to step"
@@ -123,9 +125,9 @@ def _circular(
 def _too_high(
     group: Mapping[str, Needs], places: Mapping[str, Path], findings: Findings
 ) -> dict[str, Unusable]:
-    uses = among_themselves({name: needs.names for name, needs in group.items()})
+    uses = uses_among({name: needs.names for name, needs in group.items()})
     weights = {name: needs.frames for name, needs in group.items()}
-    found = {name: Unusable() for name, height in heights(uses, weights).items() if height > MAX_HEIGHT}
+    found = {name: Unusable() for name, height in chain_weights(uses, weights).items() if height > MAX_HEIGHT}
     for name in found:
         if found.keys().isdisjoint(uses[name]):  # the other way round would go through all that was found
             message = f"{name} needs too long a chain of values, each computed from the next"

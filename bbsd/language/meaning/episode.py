@@ -16,16 +16,16 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Kind, Level, Node
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
-from bbsd.language.meaning.behaviors import Module, module
+from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.names import Moment, Names, Slot, Stored, alone, flat, moment, slot, slots_of
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
-from bbsd.language.meaning.picture import Picture, picture
+from bbsd.language.meaning.picture import Picture, elaborate_picture
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from bbsd.language.meaning.labels import Labels
-    from bbsd.language.written import Expression
+    from bbsd.language.field_types import Expression
+    from bbsd.language.meaning.tables.labels import Labels
 
 
 MAX_ACTIONS_IN_ALL = 50_000
@@ -79,7 +79,7 @@ class Episode:
         )
 
 
-def episode(names: Names) -> Episode | None:
+def elaborate_episode(names: Names) -> Episode | None:
     """Elaborate a whole spec; None where its behaviors could not be understood."""
     first = _start(names)
     beginning = moment(names, first, names.graph.number(0))
@@ -127,7 +127,7 @@ def _modules(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Itera
     """The behaviors that could be understood, up to the one with which their tables are too large together."""
     n_cells = 0
     for name, written in names.spec.behaviors.items():
-        found = module(name, written, decision, kinds)
+        found = elaborate_behavior(name, written, decision, kinds)
         if found is not None:
             yield found
         n_cells += found.n_cells if found else 0
@@ -283,7 +283,7 @@ def _picture(first: Stored, beginning: Moment, names: Names) -> Picture | None:
     if names.spec.view is None:
         return None
     aside = replace(names, graph=names.graph.fork())
-    return picture(names.spec.view, _decision(_slots(first, aside), beginning, aside))
+    return elaborate_picture(names.spec.view, _decision(_slots(first, aside), beginning, aside))
 
 
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:

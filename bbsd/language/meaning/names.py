@@ -21,12 +21,12 @@ from bbsd.expression.scope import (
     Unusable,
     Value,
 )
-from bbsd.language.meaning.partitions import Partition, is_partition, partition
+from bbsd.language.meaning.partitions import Partition, elaborate_partition, is_partition
 
 if TYPE_CHECKING:
+    from bbsd.language.field_types import Expression
     from bbsd.language.meaning.constants import Constants
     from bbsd.language.models import Spec
-    from bbsd.language.written import Expression
 
 Stored = Mapping[str, tuple[Node, ...]]
 """The values of state (one a robot) and of the world (one) at some moment of a step."""
@@ -103,7 +103,7 @@ class Moment:
         if (name, robot) not in self.partitions:
             path: Path = ("environment", "sensors", name)
             here = self.scope.at(path, robot, draws=True)
-            self.partitions[name, robot] = partition(
+            self.partitions[name, robot] = elaborate_partition(
                 self.names.spec.environment.sensors[name], here, path, robot
             )
         return self.partitions[name, robot]

@@ -10,7 +10,7 @@ from bbsd.expression.tree import names_used
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from bbsd.language.written import Expression
+    from bbsd.language.field_types import Expression
 
 MAX_CIRCLES = 50
 
@@ -18,22 +18,22 @@ Uses = dict[str, set[str]]
 """For each name, the others that its value needs."""
 
 
-def names_in(expressions: Iterable[Expression]) -> frozenset[str]:
+def names_used_in(expressions: Iterable[Expression]) -> frozenset[str]:
     """All names that some expressions use."""
     return frozenset().union(*(names_used(expression.tree) for expression in expressions))
 
 
-def among_themselves(uses: Mapping[str, frozenset[str]]) -> Uses:
+def uses_among(uses: Mapping[str, frozenset[str]]) -> Uses:
     """What each name uses of the others."""
     return {name: set(others & uses.keys()) for name, others in uses.items()}
 
 
-def in_order(uses: Uses) -> list[str]:
+def dependency_order(uses: Uses) -> list[str]:
     """The names, each after those that it uses. There must be no circles."""
     return list(TopologicalSorter(uses).static_order())
 
 
-def circles(uses: Uses) -> tuple[list[tuple[str, ...]], set[str]]:
+def find_circles(uses: Uses) -> tuple[list[tuple[str, ...]], set[str]]:
     """Circles of dependency, (a, b, a) where a uses b and b uses a; and all names that have no order."""
     found: list[tuple[str, ...]] = []
     left = {name: set(others) for name, others in uses.items()}
@@ -64,9 +64,9 @@ def _blocked(uses: Uses) -> set[str]:
     return set()
 
 
-def heights(uses: Uses, weights: Mapping[str, int]) -> dict[str, int]:
+def chain_weights(uses: Uses, weights: Mapping[str, int]) -> dict[str, int]:
     """For each name, the weight of the heaviest chain of names that ends in it. There must be no circles."""
     found: dict[str, int] = {}
-    for name in in_order(uses):
+    for name in dependency_order(uses):
         found[name] = weights[name] + max((found[other] for other in uses[name]), default=0)
     return found

@@ -12,12 +12,12 @@ from bbsd.expression.mistakes import KEY
 from bbsd.expression.text import render
 from bbsd.expression.tree import Call, Name, Span
 from bbsd.language.meaning.coverage import covers_everything
-from bbsd.language.meaning.labels import Labels, Numbers
+from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
 
 if TYPE_CHECKING:
     from bbsd.expression.scope import Path, Scope
-    from bbsd.language.written import Expression
+    from bbsd.language.field_types import Expression
 
 TRUTH_CELLS = ("false", "true")
 MAX_CELLS = 1_000_000
@@ -39,7 +39,9 @@ def is_partition(written: PartitionText) -> bool:
     )
 
 
-def partition(written: PartitionText, scope: Scope, path: Path, robot: int | None) -> Partition | None:
+def elaborate_partition(
+    written: PartitionText, scope: Scope, path: Path, robot: int | None
+) -> Partition | None:
     """The cells of a partition and where the robot is in it; None after a mistake."""
     here = scope.at(path, robot, draws=scope.draws is not None)
     if isinstance(written, dict):

@@ -9,16 +9,16 @@ from bbsd.expression import elaboration
 from bbsd.expression.checks import of_kind
 from bbsd.expression.graph import Kind, Node
 from bbsd.expression.mistakes import WHOLE
-from bbsd.language.written import Expression
+from bbsd.language.field_types import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
     from bbsd.expression.scope import Scope, Value
     from bbsd.expression.tree import Span
+    from bbsd.language.field_types import Nested
     from bbsd.language.meaning.names import Moment
     from bbsd.language.view import View
-    from bbsd.language.written import Nested
 
 Row = tuple[Node, ...]
 """Numbers beside each other: a place as x, y and perhaps a radius, or a row of a table."""
@@ -38,7 +38,7 @@ class Picture:
     marks: Mapping[str, Row]
 
 
-def picture(view: View, moment: Moment) -> Picture:
+def elaborate_picture(view: View, moment: Moment) -> Picture:
     """Elaborate a view at a moment; its mistakes are told."""
     names = moment.names
     scopes = [moment.scope.at(("view",), robot) for robot in names.robots]

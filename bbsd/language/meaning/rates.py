@@ -14,8 +14,8 @@ from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from bbsd.language.field_types import Expression
     from bbsd.language.models import Spec
-    from bbsd.language.written import Expression
 
 
 MOST_STEPS = 600_000
@@ -32,7 +32,7 @@ class Rates:
     exploration: tuple[float, ...]
 
 
-def rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, Binding]) -> Rates:
+def evaluate_rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, Binding]) -> Rates:
     """Evaluate the rates; each must be a probability everywhere."""
     generations, episodes = spec.design.coevolution.generations, spec.design.learning.episodes
     counted = range(1, max(episodes, spec.design.learning.last) + 1)

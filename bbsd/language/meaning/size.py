@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import lgamma, log, log10
 from typing import TYPE_CHECKING
 
-from bbsd.language.meaning.rules import OPEN_CELL
 from bbsd.language.meaning.structure import OPEN_LAYER
+from bbsd.language.meaning.tables.table import OPEN_CELL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -31,7 +31,7 @@ class Structure:
         return OPEN_LAYER in self.layers or behavior in self.layers
 
 
-def structure(spec: Spec, findings: Findings, broken: frozenset[str] = frozenset()) -> Structure:
+def elaborate_structure(spec: Spec, findings: Findings, broken: frozenset[str] = frozenset()) -> Structure:
     """The layers as given, or as many open ones as `design.layers` says."""
     behaviors = list(spec.behaviors)
     everyone = tuple(range(len(behaviors)))

@@ -2,8 +2,8 @@ import math
 
 import pytest
 
-from bbsd.architecture.drawn_constants import settled_constants
-from bbsd.language.written import expression
+from bbsd.architecture.drawn_constants import drawn_constants
+from bbsd.language.field_types import expression
 from bbsd.text import Source, read, write
 from tests.unit.architecture.designs import meaning_of, shipped
 
@@ -29,14 +29,14 @@ def vector(meaning, generation=1):
 def settled_again(text, seed=0):
     """The settled constants, and the meaning of a spec that has them, for another seed."""
     meaning = meaning_of(text, seed)
-    changes = settled_constants(meaning)
+    changes = drawn_constants(meaning)
     data = read(Source("spec.yaml", text)).data
     data["constants"] |= {path[1]: value for path, value in changes.items()}
     return changes, meaning, meaning_of(write(data), seed + 1)
 
 
 def test_constants_without_draws_are_not_touched():
-    assert settled_constants(meaning_of(shipped("object_lifting"))) == {}
+    assert drawn_constants(meaning_of(shipped("object_lifting"))) == {}
 
 
 def test_drawn_tables_become_tables_of_whole_numbers():
@@ -70,7 +70,7 @@ def test_what_is_computed_from_drawn_constants_stays_as_it_is():
 def test_with_a_generation_what_was_drawn_is_written_into_the_expression(text, seed):
     changes, meaning, again = settled_again(with_constants(a=text), seed)
     assert list(changes) == [("constants", "a")]
-    assert settled_constants(again) == {}
+    assert drawn_constants(again) == {}
     for generation in range(1, 9):
         assert vector(again, generation) == vector(meaning, generation)
 

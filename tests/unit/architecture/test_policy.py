@@ -22,7 +22,7 @@ def expected(meaning, space, architecture):
     for joint in product(*(range(size) for size in space.sizes)):
         number = 0
         for behavior in architecture.structure[::-1]:
-            view, module = space.views[behavior], modules[behavior]
+            view, module = space.projections[behavior], modules[behavior]
             is_excited = (
                 view.excited_at == 1 if view.excitement is None else joint[view.excitement] == view.excited_at
             )
@@ -52,7 +52,7 @@ def test_behaviors_that_see_through_the_same_partition_share_a_dimension():
         "tilted": 2,
     }
     assert space.joint_size == 72
-    assert space.views[3].axes == space.views[4].axes == (2, 3)
+    assert space.projections[3].axes == space.projections[4].axes == (2, 3)
 
 
 EXCITED = """
@@ -71,7 +71,7 @@ def test_an_excitation_shares_the_dimension_of_the_same_condition_and_of_its_opp
         "near of two": ("false", "true"),
         "four": EXCITEMENT,
     }
-    assert [(view.excitement, view.excited_at) for view in space.views] == [
+    assert [(view.excitement, view.excited_at) for view in space.projections] == [
         (None, 1),
         (0, 1),
         (0, 0),

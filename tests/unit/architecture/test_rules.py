@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from bbsd.architecture.rules import rules_of
 from bbsd.expression.scope import Findings
-from bbsd.language.meaning.rules import OPEN_CELL
-from bbsd.language.meaning.rules import table as table_of
+from bbsd.language.meaning.tables.rules import table_of_rules
+from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.language.models import Behavior
 from bbsd.text import Source, read, write
 
@@ -30,7 +30,7 @@ def parsed(rules):
 
 def decided(rules, inputs):
     findings = Findings()
-    table = table_of(rules, inputs, ACTIONS, (), findings)
+    table = table_of_rules(rules, inputs, ACTIONS, (), findings)
     assert not findings.mistakes
     return np.frombuffer(table.given, np.uint8)
 
@@ -61,7 +61,7 @@ def half_made(draw):
         when = {name: [draw(st.sampled_from(inputs[name]))] for name in sorted(named)}
         rules.append({"when": when, "do": draw(word)} if when else {"otherwise": draw(word)})
     given_rules = parsed(rules)
-    cells = np.frombuffer(table_of(given_rules, inputs, ACTIONS, (), Findings()).given, np.uint8)
+    cells = np.frombuffer(table_of_rules(given_rules, inputs, ACTIONS, (), Findings()).given, np.uint8)
     return inputs, given_rules, np.where(cells == OPEN_CELL, table, cells), (cells == OPEN_CELL).any()
 
 
@@ -70,7 +70,7 @@ def test_given_rules_are_kept_and_only_what_they_leave_open_is_filled(case):
     inputs, given_rules, table, is_open = case
     if is_open:
         rules = parsed(rules_of(table, inputs, ACTIONS, given_rules))
-        found = np.frombuffer(table_of(rules, inputs, ACTIONS, (), Findings()).given, np.uint8)
+        found = np.frombuffer(table_of_rules(rules, inputs, ACTIONS, (), Findings()).given, np.uint8)
         assert np.array_equal(found, table)
         kept = [
             rule

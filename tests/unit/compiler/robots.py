@@ -8,7 +8,7 @@ from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.source import module_source
 from bbsd.kernel.modules import load_kernel
-from bbsd.language.meaning import mean
+from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from bbsd.solver.random_agents import random_agents
 
@@ -45,7 +45,7 @@ def moving(*, robots=4, lanes=1, compiled=False, state=(), left=(), right=(), re
         "behaviors": {"left": left, "right": right},
         "reward": reward or {"x": "x - abs(y)", "y": "y if armed else n"},
     }
-    meaning, mistakes = mean(Spec.model_validate(spec), 1)
+    meaning, mistakes = elaborate(Spec.model_validate(spec), 1)
     assert mistakes == ()
     return compile_meaning(meaning, lanes=lanes, compiled=compiled)
 

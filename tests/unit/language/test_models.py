@@ -2,8 +2,8 @@ import pytest
 from pydantic import ValidationError
 
 from bbsd.language.base import Part
+from bbsd.language.field_types import Expression, signature
 from bbsd.language.models import Behavior, Environment, Otherwise, Spec, When
-from bbsd.language.written import Expression, signature
 from bbsd.text import read
 from tests.unit.language.specs import codes, source
 

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.language.recovery import UNKNOWN, rest_of
+from bbsd.language.recovery import UNKNOWN, recover
 from bbsd.language.validation import validate
 from bbsd.text import read
 from tests.unit.language.specs import codes, source
@@ -9,7 +9,7 @@ from tests.unit.language.specs import codes, source
 def rest(part: str):
     data = read(source(part)).data
     _, errors = validate(data)
-    return rest_of(data, errors)
+    return recover(data, errors)
 
 
 def test_wrong_values_are_stood_in_for_and_the_rest_is_kept() -> None:
@@ -31,7 +31,7 @@ def test_names_that_are_lost_are_remembered() -> None:
 def test_the_data_are_left_as_they_were() -> None:
     data = read(source("environment: {robots: many}")).data
     _, errors = validate(data)
-    rest_of(data, errors)
+    recover(data, errors)
     assert data["environment"]["robots"] == "many"
 
 

@@ -8,7 +8,7 @@ from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes import folds
 from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
-from bbsd.language.meaning import mean
+from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from tests.interpreter.made_up import specs
 from tests.unit.architecture.designs import shipped
@@ -340,7 +340,7 @@ def test_loops_change_no_bit_of_larger_specs(text):
     specs(most_robots=6), st.integers(0, 2**32), st.sampled_from([1, 2]), st.integers(1, 3), st.integers(2, 8)
 )
 def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, generation, looked_at):
-    meaning, _ = mean(Spec.model_validate(data), seed)
+    meaning, _ = elaborate(Spec.model_validate(data), seed)
     assume(meaning.spec.environment.robots > 1)
     problem = compile_meaning(meaning, lanes=lanes, compiled=False)
     written_out = bits(with_loops(problem, 100), 3, seed, generation)

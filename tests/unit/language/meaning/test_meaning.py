@@ -1,5 +1,5 @@
 from bbsd.expression import graph, scope
-from bbsd.language.meaning import mean, seed_key
+from bbsd.language.meaning import elaborate, seed_key
 from bbsd.language.models import Spec
 from bbsd.text import read
 from tests.unit.language.specs import codes, meant, source
@@ -43,7 +43,7 @@ def test_sensors_and_constants_are_whole_if_what_they_are_made_of_is() -> None:
 
 def test_nothing_is_said_about_broken_names() -> None:
     spec = Spec.model_validate(read(source("reward: {near: lost + sum(1 for v in lost), far: hight}")).data)
-    meaning, told = mean(spec, 0, frozenset({"lost"}))
+    meaning, told = elaborate(spec, 0, frozenset({"lost"}))
     assert meaning is None
     assert [(path, mistake.code) for path, mistake in told] == [(("reward", "far"), "BB052")]
 
@@ -55,7 +55,7 @@ def test_seeds_have_keys_of_their_own() -> None:
 def test_a_spec_that_unrolls_too_far_is_told_where(monkeypatch) -> None:
     monkeypatch.setattr(graph, "MAX_NODES", 1000)
     spec = Spec.model_validate(read(source("reward: {near: sum(height * k for k in range(2000))}")).data)
-    meaning, told = mean(spec, 0)
+    meaning, told = elaborate(spec, 0)
     assert meaning is None
     assert [(path, mistake.code) for path, mistake in told] == [(("reward", "near"), "BB068")]
 
@@ -64,7 +64,7 @@ def test_after_very_many_mistakes_no_more_are_looked_for(monkeypatch) -> None:
     monkeypatch.setattr(scope, "MAX_MISTAKES", 3)
     reward = ", ".join(f"r{place}: unknown{place}" for place in range(9))
     spec = Spec.model_validate(read(source(f"reward: {{{reward}}}")).data)
-    assert len(mean(spec, 0)[1]) == 3
+    assert len(elaborate(spec, 0)[1]) == 3
 
 
 def test_the_meaning_says_for_which_seed_it_holds() -> None:

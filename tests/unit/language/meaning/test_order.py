@@ -2,18 +2,28 @@ from itertools import pairwise
 
 import pytest
 
-from bbsd.language.meaning.order import among_themselves, circles, heights, in_order, names_in
-from bbsd.language.written import expression
+from bbsd.language.field_types import expression
+from bbsd.language.meaning.order import (
+    chain_weights,
+    dependency_order,
+    find_circles,
+    names_used_in,
+    uses_among,
+)
 
 
 def test_names_come_after_those_they_use() -> None:
-    order = in_order({"a": {"b", "c"}, "b": {"c"}, "c": set()})
+    order = dependency_order({"a": {"b", "c"}, "b": {"c"}, "c": set()})
     assert order == ["c", "b", "a"]
 
 
 def test_only_the_uses_of_each_other_count() -> None:
-    uses = {"a": names_in([expression("b + x"), expression("sin(c)")]), "b": frozenset(), "c": frozenset()}
-    assert among_themselves(uses) == {"a": {"b", "c"}, "b": set(), "c": set()}
+    uses = {
+        "a": names_used_in([expression("b + x"), expression("sin(c)")]),
+        "b": frozenset(),
+        "c": frozenset(),
+    }
+    assert uses_among(uses) == {"a": {"b", "c"}, "b": set(), "c": set()}
 
 
 @pytest.mark.parametrize(
@@ -26,7 +36,7 @@ def test_only_the_uses_of_each_other_count() -> None:
     ],
 )
 def test_circles(uses: dict[str, set[str]], found: list[tuple[str, ...]], involved: set[str]) -> None:
-    told, all_involved = circles(uses)
+    told, all_involved = find_circles(uses)
     assert sorted(tuple(sorted(set(circle))) for circle in told) == sorted(
         tuple(sorted(set(circle))) for circle in found
     )
@@ -36,16 +46,16 @@ def test_circles(uses: dict[str, set[str]], found: list[tuple[str, ...]], involv
 
 def test_each_step_of_a_circle_is_a_use() -> None:
     uses = {"a": {"b", "x"}, "b": {"c"}, "c": {"a"}, "x": set()}
-    ((*circle,),) = circles(uses)[0]
+    ((*circle,),) = find_circles(uses)[0]
     assert all(needed in uses[name] for name, needed in pairwise(circle))
 
 
 def test_of_very_many_circles_not_all_are_told_but_all_are_known() -> None:
-    told, involved = circles({str(place): {str(place)} for place in range(200)})
+    told, involved = find_circles({str(place): {str(place)} for place in range(200)})
     assert len(told) == 50
     assert len(involved) == 200
 
 
 def test_heights_add_up_along_the_heaviest_chain() -> None:
     uses = {"a": set(), "b": {"a"}, "c": {"a"}, "d": {"b", "c"}}
-    assert heights(uses, {"a": 1, "b": 10, "c": 2, "d": 1}) == {"a": 1, "b": 11, "c": 3, "d": 12}
+    assert chain_weights(uses, {"a": 1, "b": 10, "c": 2, "d": 1}) == {"a": 1, "b": 11, "c": 3, "d": 12}

@@ -3,41 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from math import prod
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.mistakes import KEY, WHOLE
-from bbsd.language.meaning.labels import Labels
+from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Inputs, Table
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
 
 if TYPE_CHECKING:
-    from bbsd.expression.scope import Findings, Path
+    from collections.abc import Collection, Mapping, Sequence
 
-OPEN_CELL = 255
-NO_ACTION = 0
+    from bbsd.expression.scope import Findings, Path
+    from bbsd.language.meaning.tables.labels import Labels
+
 MAX_LOOKED_AT = 30_000_000
 OTHER_TRUTHS = {"yes": "true", "on": "true", "1": "true", "no": "false", "off": "false", "0": "false"}
 
-Inputs = Mapping[str, Labels]
-"""Each input's cells, in the order of the table's dimensions."""
 
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A table's cells in row-major order of the inputs: 0: No Action, k: the k-th action, 255: open."""
-
-    given: bytes
-
-    @property
-    def is_open(self) -> bool:
-        """Whether any cell is left to be designed."""
-        return OPEN_CELL in self.given
-
-
-def table(
+def table_of_rules(
     rules: Sequence[Rule] | None,
     inputs: Inputs,
     actions: Sequence[str],

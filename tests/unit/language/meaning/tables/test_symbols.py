@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from bbsd.expression.scope import Findings
 from bbsd.expression.tree import Span
 from bbsd.language.meaning.behaviors import MAX_ACTIONS
-from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL
-from bbsd.language.meaning.symbols import SYMBOLS, filled_text, table_of_text, text_of_table
+from bbsd.language.meaning.tables.symbols import SYMBOLS, filled_text, table_of_text, text_of_table
+from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL
 from bbsd.text import Source, read, write
 from tests.unit.language.specs import check, codes, meant, source
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.architecture.drawn_constants import settled_constants
+from bbsd.architecture.drawn_constants import drawn_constants
 from bbsd.architecture.rules import rules_of
-from bbsd.language.meaning.symbols import filled_text, text_of_table
+from bbsd.language.meaning.tables.symbols import filled_text, text_of_table
 from bbsd.language.models import OPEN
 from bbsd.text import DELETE
 
@@ -41,7 +41,7 @@ def spec_changes(
         if module.table.is_open and meaning.structure.may_hold(index):
             found = _cells(module, meaning.spec.behaviors[module.name], table, most_words)
             behaviors |= {("behaviors", module.name, key): value for key, value in found.items()}
-    return {**settled_constants(meaning), **behaviors, **_structure(meaning, architecture)}
+    return {**drawn_constants(meaning), **behaviors, **_structure(meaning, architecture)}
 
 
 def _cells(

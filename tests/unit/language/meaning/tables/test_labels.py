@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.language.meaning.labels import Numbers
+from bbsd.language.meaning.tables.labels import Numbers
 
 CELLS = Numbers(-2, 3)
 WRITTEN = ("-2", "-1", "0", "1", "2", "3")

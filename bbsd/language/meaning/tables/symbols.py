@@ -11,13 +11,13 @@ from string import ascii_letters
 from typing import TYPE_CHECKING
 
 from bbsd.expression.tree import Span
-from bbsd.language.meaning.rules import NO_ACTION, OPEN_CELL, Table
+from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from bbsd.expression.scope import Findings, Path
-    from bbsd.language.meaning.rules import Inputs
+    from bbsd.language.meaning.tables.table import Inputs
 
 ACCENTED = "".join(map(chr, (*range(0xC0, 0xD7), *range(0xD8, 0xF7), *range(0xF8, 0x180))))
 ACTIONS = "123456789" + ascii_letters + ACCENTED

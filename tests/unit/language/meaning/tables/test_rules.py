@@ -1,7 +1,8 @@
 import pytest
 
 from bbsd.expression.scope import Findings
-from bbsd.language.meaning.rules import OPEN_CELL, Table, table
+from bbsd.language.meaning.tables.rules import table_of_rules
+from bbsd.language.meaning.tables.table import OPEN_CELL, Table
 from bbsd.language.models import Otherwise, Rule, When
 
 INPUTS = {"near": ("false", "true"), "tilt": ("below 2", "2 to 5", "5 to 9", "from 9")}
@@ -19,19 +20,19 @@ def otherwise(do: str) -> Otherwise:
 
 def given(*rules: Rule) -> list[int]:
     findings = Findings()
-    found = table(rules, INPUTS, ACTIONS, ("rules",), findings)
+    found = table_of_rules(rules, INPUTS, ACTIONS, ("rules",), findings)
     assert not findings.mistakes
     return list(found.given)
 
 
 def mistakes(*rules: Rule, unusable: tuple[str, ...] = ()) -> list[tuple[tuple[object, ...], str]]:
     findings = Findings()
-    table(rules, INPUTS, ACTIONS, ("rules",), findings, unusable)
+    table_of_rules(rules, INPUTS, ACTIONS, ("rules",), findings, unusable)
     return [(path, mistake.code) for path, mistake in findings.mistakes]
 
 
 def test_without_rules_all_cells_are_open() -> None:
-    assert table(None, INPUTS, ACTIONS, (), Findings()) == Table(bytes([FREE] * 8))
+    assert table_of_rules(None, INPUTS, ACTIONS, (), Findings()) == Table(bytes([FREE] * 8))
     assert given() == [FREE] * 8
 
 
@@ -71,7 +72,7 @@ def test_what_is_no_range_is_told(word: str) -> None:
 
 
 def test_a_table_without_inputs_has_one_cell() -> None:
-    assert table([otherwise("push")], {}, ACTIONS, (), Findings()).given == bytes([2])
+    assert table_of_rules([otherwise("push")], {}, ACTIONS, (), Findings()).given == bytes([2])
 
 
 def test_mistakes_are_told_rule_by_rule() -> None:

@@ -1,0 +1,64 @@
+"""From a spec to its meaning, or to all the mistakes in it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.expression.graph import Graph, GraphTooLargeError
+from bbsd.expression.mistakes import Mistake, TooManyMistakesError
+from bbsd.expression.scope import Findings, Path, Shared, Unusable
+from bbsd.language.meaning.constants import read_constants
+from bbsd.language.meaning.definitions import (
+    read_definitions,
+    report_duplicates,
+    report_unordered,
+    shared_namespace,
+)
+from bbsd.language.meaning.episode import elaborate_episode
+from bbsd.language.meaning.meaning import Meaning, seed_key
+from bbsd.language.meaning.names import Names
+from bbsd.language.meaning.rates import evaluate_rates
+from bbsd.language.meaning.structure import elaborate_structure
+from bbsd.language.meaning.whole_numbers import report_fractions
+
+if TYPE_CHECKING:
+    from bbsd.language.models import Spec
+
+
+def elaborate(
+    spec: Spec, seed: int, broken: frozenset[str] = frozenset()
+) -> tuple[Meaning | None, tuple[tuple[Path, Mistake], ...]]:
+    """Return a spec's meaning, or None where it has mistakes; and all mistakes with their paths.
+
+    `broken` are names whose own mistakes were reported before; no mistake in their use is reported.
+    """
+    findings = Findings()
+    try:
+        meaning = _elaborate(spec, seed, broken, findings)
+    except TooManyMistakesError:
+        meaning = None
+    except GraphTooLargeError:
+        meaning, (path, span) = None, findings.entered
+        advice = "use fewer robots, or shorter lists and ranges"
+        findings.mistakes[
+            path, Mistake("BB068", "the spec unrolls to too many values here", span, advice)
+        ] = None
+    mistakes = tuple(findings.mistakes)
+    return None if mistakes or broken else meaning, mistakes
+
+
+def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings) -> Meaning | None:
+    graph = Graph()
+    definitions = read_definitions(spec.environment.definitions, findings)
+    unusable = {name: Unusable() for name in broken}
+    unusable |= report_duplicates(shared_namespace(spec, definitions), findings)
+    unusable |= report_unordered(spec, definitions, findings)
+    constants = read_constants(spec.constants, seed_key(seed), graph, findings, frozenset(unusable))
+    episode = elaborate_episode(Names(spec, graph, findings, constants, definitions, unusable))
+    structure = elaborate_structure(spec, findings, broken)
+    shared = {name: Shared(value) for name, value in constants.values.items()} | unusable
+    rates = evaluate_rates(spec, graph, findings, shared)
+    report_fractions(episode, constants, findings)
+    if episode is None:
+        return None
+    return Meaning(spec, seed, graph, constants, episode, structure, rates)

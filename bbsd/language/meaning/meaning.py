@@ -1,0 +1,34 @@
+"""A spec's meaning, as one value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from bbsd.kernel.streams import name_word, word_of
+
+if TYPE_CHECKING:
+    from bbsd.expression.graph import Graph
+    from bbsd.language.meaning.constants import Constants
+    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.rates import Rates
+    from bbsd.language.meaning.structure import Structure
+    from bbsd.language.models import Spec
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """A spec without mistakes, elaborated for one seed."""
+
+    spec: Spec
+    seed: int
+    graph: Graph
+    constants: Constants
+    episode: Episode
+    structure: Structure
+    rates: Rates
+
+
+def seed_key(seed: int) -> int:
+    """Return the key of all random streams of a command."""
+    return name_word(f"bbsd seed {seed}") ^ word_of(seed)

@@ -1,0 +1,54 @@
+"""Whether values that must be whole numbers are, as far as can be proven."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+from bbsd.expression.graph import Kind, needed, whole_nodes
+from bbsd.language.meaning.constants import GENERATION
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Sequence
+
+    from bbsd.expression.graph import Node
+    from bbsd.expression.scope import Findings
+    from bbsd.language.meaning.constants import Constants
+    from bbsd.language.meaning.episode import Episode
+
+MAX_ROUNDS = 100
+"""Steps in which a fraction can spread from one slot to the next; if it spreads on, no slot counts as whole."""
+
+
+def report_fractions(episode: Episode | None, constants: Constants, findings: Findings) -> None:
+    """Report every value used as an index or in values(...) that may be a fraction.
+
+    Where the episode could not be understood, all slots count as whole.
+    """
+    is_whole_constant = cache(constants.whole)
+    nodes = [node for *_, node in findings.wholes]
+    slots = _whole_slots(episode, is_whole_constant) if episode else _slots_read(nodes)
+    whole = whole_nodes(nodes, {**slots, GENERATION: True}, is_whole_constant)
+    for path, span, purpose, node in findings.wholes:
+        if not whole[node.number]:
+            message = f"{purpose} must be a whole number, and this need not be one"
+            findings.tell(path, "BB064", message, span, "round it: floor(...) or round(...)")
+
+
+def _slots_read(nodes: Sequence[Node]) -> dict[Hashable, bool]:
+    return {node.data: True for node in needed(nodes) if node.operation == "slot"}
+
+
+def _whole_slots(episode: Episode, is_whole_constant: Callable[[Hashable], bool]) -> dict[Hashable, bool]:
+    """Say of each slot whether it always holds a whole number: in the largest set that starts so and stays so."""
+    whole: dict[Hashable, bool] = {slot: node.kind is Kind.NUMBER for slot, node in episode.start.items()}
+    for _ in range(MAX_ROUNDS):
+        nodes = whole_nodes([*episode.start.values(), *episode.after.values()], whole, is_whole_constant)
+        still_whole: dict[Hashable, bool] = {
+            slot: whole[slot] and nodes[start.number] and nodes[episode.after[slot].number]
+            for slot, start in episode.start.items()
+        }
+        if still_whole == whole:
+            return whole
+        whole = still_whole
+    return dict.fromkeys(whole, False)
