@@ -65,7 +65,7 @@ def shape_of(behavior: Module, *, left_out: bool = False) -> TableShape:
     return TableShape(behavior.name, behavior.n_cells, len(behavior.actions), given)
 
 
-def words_of(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> npt.NDArray[np.int64]:
+def packed_tables(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> npt.NDArray[np.int64]:
     """Each individual of the packed behaviors as one word, (n_behaviors, largest pool)."""
     words = np.zeros((len(pools), max(len(pool) for pool in pools)), np.int64)
     for index, (shape, pool) in enumerate(zip(shapes, pools, strict=True)):
@@ -76,7 +76,7 @@ def words_of(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> npt.NDArray
     return words
 
 
-def cells_of(
+def unpacked_tables(
     shapes: Sequence[TableShape], pools: Sequence[Pool]
 ) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.int64]]:
     """The cells of all behaviors that are not packed, one after the other, and where each behavior's begin."""

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.tables import Pool, cells_of, words_of
-from bbsd.compiler.writing.deciding import ACTION_BITS
+from bbsd.compiler.tables import Pool, packed_tables, unpacked_tables
+from bbsd.compiler.writing.arbitration import ACTION_BITS
 from bbsd.kernel.memory import zeros
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.problem import Problem
 
     Rollout = Callable[..., bool | None]
-    """Lives lanes; whether it is in doubt of what came out."""
+    """Lives lanes; whether a comparison was uncertain, so that nothing counts."""
 
 NEVER = -(1 << 40)
 """The priority of a behavior that is not in the structure."""
@@ -48,17 +48,18 @@ class DetailedOutcome:
     """An episode of every agent in detail.
 
     returns (n,), credit (n, n_behaviors + 1), terms (n, n_terms) in the spec's order, control (n, n_behaviors + 1)
-    robot-steps by behavior and nobody, taken (n,) steps, odd (n, n_places) steps in which a value was not finite,
-    held (n, n_expectations) robot-steps in which a behavior with an expectation controlled and it held after them.
+    robot-steps by behavior and nobody, steps_taken (n,), not_finite (n, n_places) steps in which a value was not
+    finite, expectations_met (n, n_expectations) robot-steps in which a behavior with an expectation controlled and it
+    held after them.
     """
 
     returns: Floats
     credit: Floats
     terms: Floats
     control: Floats
-    taken: Floats
-    odd: Floats
-    held: Floats
+    steps_taken: Floats
+    not_finite: Floats
+    expectations_met: Floats
 
 
 class Team:
@@ -75,22 +76,22 @@ class Team:
         padded = -(-self.size // problem.lanes) * problem.lanes
         self._individuals = np.zeros((problem.n_behaviors, padded), np.int64)
         self._individuals[:, : self.size] = members.T
-        self._words = words_of(problem.tables, pools)
-        self._cells, self._origins = cells_of(problem.tables, pools)
+        self._packed_tables = packed_tables(problem.tables, pools)
+        self._cells, self._table_offsets = unpacked_tables(problem.tables, pools)
         self._constants = constants
         self._keys = np.zeros(padded, np.uint64)
         self._priorities = np.full((problem.n_behaviors, padded), NEVER, np.int64)
         actions = [0, *np.cumsum([table.n_actions for table in problem.tables])[:-1]]
         self._first_actions = np.array(actions, np.int64)
-        self._doubtful = False  # doubts come from what a spec says, so one is seldom alone
+        self._uncertain = False  # it comes from what a spec says, so it is seldom one episode alone
 
     def episode(self, keys: Keys, structures: Integers) -> Outcome:
         """Live one episode: keys (n_agents,) name its streams, structures (n_agents, n_layers) order the behaviors."""
-        if not self._doubtful:
+        if not self._uncertain:
             returns, credit = self._outputs(1)[0], self._outputs(self.problem.n_behaviors + 1)
             inputs = self._inputs(keys, structures)
-            self._doubtful = self._live(self.problem.rollout, *inputs, returns, credit)
-        if self._doubtful:
+            self._uncertain = self._live(self.problem.rollout, *inputs, returns, credit)
+        if self._uncertain:
             detailed = self.detailed_episode(keys, structures)
             return Outcome(detailed.returns, detailed.credit)
         return Outcome(returns[: self.size], credit[:, : self.size].T)
@@ -99,8 +100,7 @@ class Team:
         """The same episode with everything that an evaluation reports."""
         arrays = self._detailed_outputs()
         self._live(self.problem.rollout_detailed, *self._inputs(keys, structures), *arrays)
-        returns, credit, terms, control, taken, odd, held = (array.T[: self.size] for array in arrays)
-        return DetailedOutcome(returns, credit, terms, control, taken, odd, held)
+        return DetailedOutcome(*(array.T[: self.size] for array in arrays))
 
     def traced_episode(
         self, rollout: Rollout, memory: int, key: int, structure: Integers, record: Floats
@@ -110,11 +110,11 @@ class Team:
         It works with so many numbers of memory.
         """
         keys, arrays = np.array([key], np.uint64), self._detailed_outputs()
-        *_, taken, _odd, _held = arrays
+        *_, steps_taken, _not_finite, _expectations_met = arrays
         inputs = self._inputs(np.resize(keys, self.size), np.resize(structure, (self.size, len(structure))))
         with np.errstate(all="ignore"):
             rollout(0, 1, zeros(memory), *inputs, *arrays, record)
-        return int(taken[0])
+        return int(steps_taken[0])
 
     def _detailed_outputs(self) -> list[Floats]:
         """Zeros for what a detailed rollout writes, in the order of its arguments."""
@@ -127,13 +127,13 @@ class Team:
     def _live(self, rollout: Rollout, *arrays: object) -> bool:
         """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock.
 
-        Whether any was in doubt, and nothing that came out is valid.
+        Return whether a comparison was uncertain, so that nothing that was written counts.
         """
         spans, memory = self._spans(), self.problem.memory
         if len(spans) == 1:
             return bool(rollout(*spans[0], zeros(memory), *arrays))
-        doubts = self.problem.threads.map(lambda span: rollout(*span, zeros(memory), *arrays), spans)
-        return any(list(doubts))
+        uncertain = self.problem.threads.map(lambda span: rollout(*span, zeros(memory), *arrays), spans)
+        return any(list(uncertain))
 
     def _spans(self) -> list[tuple[int, int]]:
         """Which lanes each thread runs, whole batches of them."""
@@ -153,9 +153,9 @@ class Team:
         return (
             self._keys,
             self._individuals,
-            self._words,
+            self._packed_tables,
             self._cells,
-            self._origins,
+            self._table_offsets,
             self._priorities,
             self._constants,
         )

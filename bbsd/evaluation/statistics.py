@@ -89,16 +89,16 @@ def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: in
     """
     parts = [_sums(outcome) for outcome in outcomes]
     returns = np.concatenate([part.returns for part in parts])
-    terms, control, odd, held = (
+    terms, control, not_finite, met = (
         column_sums(np.stack([getattr(part, name) for part in parts]))
-        for name in ("terms", "control", "odd", "held")
+        for name in ("terms", "control", "not_finite", "expectations_met")
     )
-    taken = fsum(float(part.taken[0]) for part in parts)
+    steps_taken = fsum(float(part.steps_taken[0]) for part in parts)
     spread = interval(returns)
     if agents > 1:
         by_agent = interval(row_means(returns.reshape(agents, -1)))
         spread = Interval(spread.mean, spread.sd, by_agent.low, by_agent.high, len(returns))
-    named = _named(problem, terms, control, taken, odd, held, float(len(returns)))
+    named = _named(problem, terms, control, steps_taken, not_finite, met, float(len(returns)))
     return Evaluation(spread, len(returns), agents, *named)
 
 
@@ -109,25 +109,25 @@ def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
         credit=column_sums(outcome.credit),
         terms=column_sums(outcome.terms),
         control=column_sums(outcome.control),
-        taken=column_sums(outcome.taken[:, None]),
-        odd=column_sums(outcome.odd),
-        held=column_sums(outcome.held),
+        steps_taken=column_sums(outcome.steps_taken[:, None]),
+        not_finite=column_sums(outcome.not_finite),
+        expectations_met=column_sums(outcome.expectations_met),
     )
 
 
 def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], weights: Floats) -> Evaluation:
     """The exact expectation over all episodes there can be, each with its probability; weights (n,) sum to 1."""
     parts = list(outcomes)
-    returns, terms, control, taken, odd, held = (
+    returns, terms, control, steps_taken, not_finite, met = (
         np.concatenate([getattr(part, name) for part in parts])
-        for name in ("returns", "terms", "control", "taken", "odd", "held")
+        for name in ("returns", "terms", "control", "steps_taken", "not_finite", "expectations_met")
     )
     center = expectation(weights, returns)
     sd = sqrt(expectation(weights, (returns - center) ** 2))
     by_term, by_control, by_held = (
-        np.array([expectation(weights, column) for column in columns.T]) for columns in (terms, control, held)
+        np.array([expectation(weights, column) for column in columns.T]) for columns in (terms, control, met)
     )
-    steps, counts = expectation(weights, taken), column_sums(odd)
+    steps, counts = expectation(weights, steps_taken), column_sums(not_finite)
     named = _named(problem, by_term, by_control, steps, counts, by_held, 1.0)
     return Evaluation(Interval(center, sd, center, center, len(weights)), len(weights), 1, *named, exact=True)
 
@@ -136,9 +136,9 @@ def _named(
     problem: Problem,
     terms: Floats,
     control: Floats,
-    taken: float,
-    odd: Floats,
-    held: Floats,
+    steps_taken: float,
+    not_finite: Floats,
+    met: Floats,
     episodes: float,
 ) -> tuple[dict[str, float], dict[str, float], float, dict[str, int], dict[str, float]]:
     """Sums as named means and shares."""
@@ -148,13 +148,15 @@ def _named(
         name: float(value) / episodes
         for name, value in zip(problem.meaning.episode.reward, terms, strict=True)
     }
-    share = {name: float(value) / (taken * robots) for name, value in zip(who, control, strict=True)}
+    share = {name: float(value) / (steps_taken * robots) for name, value in zip(who, control, strict=True)}
     counts = {
-        slot_text(slot, robots): int(value) for slot, value in zip(problem.places, odd, strict=True) if value
+        slot_text(slot, robots): int(value)
+        for slot, value in zip(problem.places, not_finite, strict=True)
+        if value
     }
     in_control = dict(zip(who, control, strict=True))
     expected = {
         name: float(value) / float(in_control[name]) if in_control[name] else float("nan")
-        for name, value in zip(problem.meaning.episode.expects, held, strict=True)
+        for name, value in zip(problem.meaning.episode.expects, met, strict=True)
     }
-    return by_term, share, taken / episodes, counts, expected
+    return by_term, share, steps_taken / episodes, counts, expected

@@ -92,8 +92,10 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     pools = tuple(table[None] for table in architecture.tables)
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
-    taken = team.traced_episode(kernel.rollout_traced, kernel.MEMORY, key, architecture.structure, record)
-    lived = _read(problem, columns, record[:taken])
+    steps_taken = team.traced_episode(
+        kernel.rollout_traced, kernel.MEMORY, key, architecture.structure, record
+    )
+    lived = _read(problem, columns, record[:steps_taken])
     return replace(lived, scene=_scene(lived, problem.meaning, key, generation))
 
 

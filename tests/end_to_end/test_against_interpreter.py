@@ -49,9 +49,9 @@ def compared(problem, seed, generation, n_agents, agents_seed):
         assert digits([detailed.returns[agent]]) == digits([expected.return_])
         assert digits(detailed.credit[agent]) == digits(expected.credit)
         assert digits(detailed.terms[agent]) == digits(expected.terms)
-        assert detailed.taken[agent] == expected.steps
+        assert detailed.steps_taken[agent] == expected.steps
         assert detailed.control[agent].tolist() == expected.controlled
-        assert detailed.held[agent].tolist() == list(expected.held.values())
+        assert detailed.expectations_met[agent].tolist() == list(expected.held.values())
 
 
 def digits(numbers):

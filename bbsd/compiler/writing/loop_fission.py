@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.compiler.writing.blocks import Block, Blocks
-    from bbsd.compiler.writing.rollout_function import Frame
+    from bbsd.compiler.writing.rollout_function import RolloutFunction
 
 COSTLY = re.compile(rf"\b({'|'.join([*sorted(EXPENSIVE), 'normal'])})\(")
 DEFINED = re.compile(r"(\w+) = ")
@@ -30,25 +30,27 @@ SHORTEST, LONGEST = 12, 60
 """Lines of a loop: fewer are not worth one, more are cut anywhere."""
 
 
-def written(blocks: Blocks, frame: Frame, *, split: bool = True, apart: Sequence[str] = ()) -> list[str]:
+def written(
+    blocks: Blocks, function: RolloutFunction, *, split: bool = True, apart: Sequence[str] = ()
+) -> list[str]:
     """The lines of all stages' loops, in their order; those `apart` in one more loop over lanes behind the last one."""
     lines = [*blocks.step.lines]
     every = [stage for stage in blocks.every() if not stage.is_empty]
     for stage in every:
         block = stage.block
-        bodies = [body for body in (loops(block, frame) if split else [block.lines]) if body]
+        bodies = [body for body in (loops(block, function) if split else [block.lines]) if body]
         bodies += [[*apart]] if apart and stage is every[-1] else []
         if block.level is Level.EACH:
             before = [*(stage.robot.lines if stage.robot else ())]
             for others, pair in stage.pairs.items():
-                before += frame.pair_loop(pair.head, loops(pair, frame), others=others)
-            lines += frame.robot_loop(before, bodies)
+                before += function.pair_loop(pair.head, loops(pair, function), others=others)
+            lines += function.robot_loop(before, bodies)
         else:
-            lines += [line for body in bodies for line in frame.lane_loop(body)]
+            lines += [line for body in bodies for line in function.lane_loop(body)]
     return lines
 
 
-def loops(block: Block, frame: Frame) -> list[list[str]]:
+def loops(block: Block, function: RolloutFunction) -> list[list[str]]:
     """The bodies of loops that do the same as one loop over the block's lines, in their order.
 
     Each begins with the values that others computed and ends with storing those that others need.
@@ -61,13 +63,13 @@ def loops(block: Block, frame: Frame) -> list[list[str]]:
         for name in names:
             if any(name in others for others in used[place + 1 :]):
                 kind = block.kind_of(name)
-                kept[name] = kept.get(name) or frame.keep(f"{name}_kept", kind)
-                read[name], _ = frame.read(kept[name], kind)
+                kept[name] = kept.get(name) or function.keep(f"{name}_kept", kind)
+                read[name], _ = function.read(kept[name], kind)
     return [
         [
             *(f"{name} = {source}" for name, source in read.items() if name in names - set(here)),
             *part,
-            *(frame.store(kept[name], name, block.kind_of(name)) for name in here if name in kept),
+            *(function.store(kept[name], name, block.kind_of(name)) for name in here if name in kept),
         ]
         for part, names, here in zip(parts, used, born, strict=True)
     ]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.emission import Emitter
-    from bbsd.compiler.writing.rollout_function import Frame
+    from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.expression.graph import Node
 
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class Loops:
     """Writes what crosses from loop to loop of one step: the operations that `robot_graph` makes."""
 
-    frame: Frame
+    function: RolloutFunction
     arrays: dict[int, str] = field(default_factory=dict)
     """By node, where the values stand that are stored as soon as they are computed."""
     folds: dict[tuple[int, int], str] = field(default_factory=dict)
@@ -31,11 +31,11 @@ class Loops:
 
     def kept(self, name: str, node: Node, home: Block) -> str:
         """The source of a value that another stage, `home`, computes under a name and keeps."""
-        return self.frame.read(self._kept(name, node, home), node.kind)[0]
+        return self.function.read(self._kept(name, node, home), node.kind)[0]
 
     def _kept(self, name: str, node: Node, home: Block) -> str:
         if name not in home.kept:
-            home.kept[name] = self.frame.keep(f"{name}_kept", node.kind, node.level)
+            home.kept[name] = self.function.keep(f"{name}_kept", node.kind, node.level)
         return home.kept[name]
 
     def text(self, node: Node, into: Block, emitter: Emitter) -> Text:
@@ -44,7 +44,7 @@ class Loops:
             case "table" | "pick":
                 return self._of_robot(node, "robot"), ATOM
             case "so_far":
-                return self.frame.read(self.folds[into.stage, cast("int", node.data)], node.kind)
+                return self.function.read(self.folds[into.stage, cast("int", node.data)], node.kind)
             case "theirs" if node.operands[0].operation in ("table", "pick"):
                 return self._of_other(node, into), ATOM
             case "theirs":
@@ -55,17 +55,17 @@ class Loops:
                 robot = self._seen(cast("tuple[int, ...]", node.data), into, emitter), ATOM
         (family,) = node.operands
         index, _ = sum_of([robot, ("lane", ATOM)])
-        return self.frame.read(self._array(family, emitter), family.kind, index)
+        return self.function.read(self._array(family, emitter), family.kind, index)
 
     def standing(self, node: Node, emitter: Emitter) -> Text:
         """The source of what stands in an array as soon as it is computed."""
-        return self.frame.read(self._array(node, emitter), node.kind)
+        return self.function.read(self._array(node, emitter), node.kind)
 
     def _array(self, node: Node, emitter: Emitter) -> str:
         """The array in which a value stands; what stores it there is written first."""
         match node.operation:
             case "slot":
-                return self.frame.slot_of(node)
+                return self.function.slot_of(node)
             case "over" | "each" | "among":
                 if node.number not in self.arrays:
                     self.arrays[node.number] = self._stored(node, emitter)
@@ -83,16 +83,16 @@ class Loops:
 
     def _fold(self, node: Node, block: Block, emitter: Emitter) -> str:
         """Fold a family in the loop over robots that computes it."""
-        frame, operation = self.frame, cast("str", node.data)
+        function, operation = self.function, cast("str", node.data)
         value = emitter.repeatable(node.operands[0], block)
         array = self._new("over", node, emitter)
-        so_far = frame.read(array, node.kind)
+        so_far = function.read(array, node.kind)
         if operation in ("minimum", "maximum"):
-            folded = frame.call_of(operation, so_far[0], value[0])
+            folded = function.call_of(operation, so_far[0], value[0])
         else:
             folded, _ = infix(operation, so_far, value)
-        first = frame.call_of("select", "robot == 0", value[0], folded)
-        block.lines.append(frame.store(array, first, node.kind))
+        first = function.call_of("select", "robot == 0", value[0], folded)
+        block.lines.append(function.store(array, first, node.kind))
         return array
 
     def _fold_among(self, node: Node, emitter: Emitter) -> str:
@@ -106,7 +106,7 @@ class Loops:
             self.folds[stage, number] = (
                 self._new("over", node, emitter)
                 if number == numbers[0]
-                else self.frame.keep_numbered("over", following.kind, node.level)
+                else self.function.keep_numbered("over", following.kind, node.level)
             )
         for number, following, first in new:
             self._write_fold(number, following, first, block, emitter)
@@ -115,13 +115,13 @@ class Loops:
     def _write_fold(self, number: int, following: Node, first: Node, block: Block, emitter: Emitter) -> None:
         """Compute what follows for one more robot; it is stored when all that is so far has been read."""
         array = self.folds[block.stage, number]
-        name = self.frame.namer(f"next_{array}")
+        name = self.function.namer(f"next_{array}")
         block.assign(name, self._next(following, first, block, emitter), following.kind)
-        block.last.append(self.frame.store(array, name, following.kind))
+        block.last.append(self.function.store(array, name, following.kind))
 
     def _next(self, following: Node, first: Node, block: Block, emitter: Emitter) -> str:
         """What follows, or what is first for the first robot."""
-        begins, call = ("pair == 0", COMPARISON), self.frame.call_of
+        begins, call = ("pair == 0", COMPARISON), self.function.call_of
         if (
             following.operation == "select"
             and following.operands[1] is first
@@ -137,20 +137,20 @@ class Loops:
         array = self._new("apart", node, emitter)
         for robot, operand in enumerate(node.operands):
             index, _ = sum_of([times(robot, ("stride", ATOM)), ("lane", ATOM)])
-            block.lines.append(self.frame.store(array, emitter.value(operand, block), node.kind, index))
+            block.lines.append(self.function.store(array, emitter.value(operand, block), node.kind, index))
         return array
 
     def _new(self, stem: str, node: Node, emitter: Emitter) -> str:
         """An array for a value, called as the designer calls it if at all."""
         hint = emitter.hints.get(node.number)
         if hint:
-            return self.frame.keep(hint, node.kind, node.level)
-        return self.frame.keep_numbered(stem, node.kind, node.level)
+            return self.function.keep(hint, node.kind, node.level)
+        return self.function.keep_numbered(stem, node.kind, node.level)
 
     def _seen(self, robots: tuple[int, ...], into: Block, emitter: Emitter) -> str:
         """The name of where the values begin of the robot that each robot sees."""
         if (into.stage, robots) not in self.seen:
-            name = self.frame.namer.numbered("seen")
+            name = self.function.namer.numbered("seen")
             begins, _ = infix("*", self._which(robots), ("stride", ATOM))
             emitter.blocks.robot(into.stage).lines.append(f"{name} = {begins}")
             self.seen[into.stage, robots] = name
@@ -160,13 +160,13 @@ class Loops:
         """The robot seen by each; the k-th of the others is k for those behind it and k + 1 for the rest."""
         k = robots[-1]
         if robots == tuple(k + (robot <= k) for robot in range(len(robots))):
-            return sum_of([(str(k), ATOM), (self.frame.call_of("cell_of", f"robot <= {k}"), ATOM)])
+            return sum_of([(str(k), ATOM), (self.function.call_of("cell_of", f"robot <= {k}"), ATOM)])
         return self.by_robot(map(str, robots)), ATOM
 
     def _of_other(self, node: Node, into: Block) -> str:
         """The name of a literal or a constant of the robot looked at, which all lanes have alike."""
         if node.number not in into.names:
-            into.names[node.number] = self.frame.namer.numbered("its")
+            into.names[node.number] = self.function.namer.numbered("its")
             into.head.append(f"{into.names[node.number]} = {self._of_robot(node.operands[0], 'other')}")
         return into.names[node.number]
 
@@ -181,5 +181,5 @@ class Loops:
     def by_robot(self, texts: Iterable[str], robot: str = "robot") -> str:
         """A robot's entry of a table that stands before the function."""
         text = f"({', '.join(texts)})"
-        name = self.frame.tables.setdefault(text, f"BY_ROBOT_{len(self.frame.tables) + 1}")
+        name = self.function.tables.setdefault(text, f"BY_ROBOT_{len(self.function.tables) + 1}")
         return f"{name}[{robot}]"

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.names import Slot
 
 OWN = (
-    "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "words", "tables",
-    "origins", "priorities", "constants", "returns", "credit", "terms", "control", "taken", "odd", "held", "record",
-    "running", "rollout", "numbers", "cells", "streams", "own", "own_numbers", "own_cells", "stride", "robot",
-    "pair", "other", "theirs",
+    "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "packed_tables",
+    "tables", "table_offsets", "priorities", "constants", "returns", "credit", "terms", "control", "steps_taken",
+    "not_finite", "expectations_met", "record", "running", "rollout", "numbers", "cells", "streams", "own",
+    "own_numbers", "own_cells", "stride", "robot", "pair", "other", "theirs",
     "abs", "float", "int", "range",
 )  # fmt: skip
 """What a rollout itself uses: arguments, variables, built-in functions."""

@@ -28,15 +28,15 @@ OWN = (Level.ROBOT, Level.EACH)
 
 
 @dataclass
-class Frame:
+class RolloutFunction:
     """One rollout function while it is written."""
 
     meaning: Meaning
     shapes: Sequence[TableShape]
     lanes: int
     detail: Detail
-    certain: tuple[Node, ...] = ()
-    """Truths without which the episode is to be lived in detail."""
+    proven: tuple[Node, ...] = ()
+    """Truths that must hold; where one does not, the episode must be run again in detail."""
     tables: dict[str, str] = field(default_factory=dict)
     """Tables with an entry for each robot, source and name: they stand before the function."""
     namer: Namer = field(default_factory=Namer)
@@ -158,7 +158,7 @@ class Frame:
     def outputs(self) -> list[Node]:
         """What a step computes: what is asked for, and every slot that this reads in a later step, and so on."""
         episode = self.episode
-        wanted = [*credited(episode), *self.certain]
+        wanted = [*credited(episode), *self.proven]
         if self.detail is not Detail.CREDIT:
             wanted += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
             wanted += [node for nodes in episode.expects.values() for node in nodes]
@@ -187,9 +187,9 @@ class Frame:
         return None if self.episode.ends is None else self.keep("running_")
 
     @cached_property
-    def doubt(self) -> str | None:
-        """The array that is 1 once something of a lane was not certain; None where all always is."""
-        return self.keep("doubt") if self.certain else None
+    def uncertain(self) -> str | None:
+        """The array that is 1 once something of a lane was uncertain; None where nothing can be."""
+        return self.keep("uncertain") if self.proven else None
 
     def while_running(self, text: str, otherwise: str = "0.0") -> str:
         """A value, or 0 once the lane's episode is over."""

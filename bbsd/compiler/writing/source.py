@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
 from bbsd.compiler.passes.tangents import by_tangents
-from bbsd.compiler.writing.deciding import Decision
+from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.loop_fission import written
 from bbsd.compiler.writing.naming import slot_text
-from bbsd.compiler.writing.rollout_function import OWN, Frame, indented
+from bbsd.compiler.writing.rollout_function import OWN, RolloutFunction, indented
 from bbsd.compiler.writing.schedule import Closing, closing
-from bbsd.compiler.writing.totals import DETAILED, Reckoning
+from bbsd.compiler.writing.totals import DETAILED, Totals
 from bbsd.kernel import functions, memory, streams
 from bbsd.version import __version__
 
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.names import Slot
 
 ARGUMENTS = (
-    "first", "last", "numbers", "keys", "individuals", "words", "tables", "origins", "priorities", "constants",
-    "returns", "credit",
+    "first", "last", "numbers", "keys", "individuals", "packed_tables", "tables", "table_offsets", "priorities",
+    "constants", "returns", "credit",
 )  # fmt: skip
 
 
@@ -50,11 +50,11 @@ def module_source(
     short = rolled(meaning, written_out)
     for detail in details:
         meant = meaning if detail is Detail.TRACE else short
-        episode, certain = by_tangents(meant.episode) if detail is Detail.CREDIT else (meant.episode, ())
-        frame = Frame(replace(meant, episode=episode), shapes, lanes, detail, certain, tables)
-        texts.append(f"\n{rollout_source(frame)}")
-        used |= frame.used
-        memory_size = max(memory_size, frame.size)
+        episode, proven = by_tangents(meant.episode) if detail is Detail.CREDIT else (meant.episode, ())
+        function = RolloutFunction(replace(meant, episode=episode), shapes, lanes, detail, proven, tables)
+        texts.append(f"\n{rollout_source(function)}")
+        used |= function.used
+        memory_size = max(memory_size, function.size)
     title = f'"""Episodes of {meaning.spec.name!r}, {lanes} at a time. Written by bbsd {__version__} from the spec."""'
     imports = [
         *(["import numpy as np"] if any("np." in text for text in (*tables, *texts)) else []),
@@ -70,96 +70,96 @@ def _imports(module: str, names: Sequence[str]) -> list[str]:
     return [f"from {module} import {', '.join(names)}"] if names else []
 
 
-def rollout_source(frame: Frame) -> str:
+def rollout_source(function: RolloutFunction) -> str:
     """The text of one rollout function."""
-    decision = Decision(frame)
-    reckoning = Reckoning(frame, decision)
-    start = _start(frame, decision, reckoning)
-    step = _step(frame, decision, reckoning)
-    finish = reckoning.finish()
-    arguments = [*ARGUMENTS, *(DETAILED if frame.detail is not Detail.CREDIT else ())]
-    arguments += ["record"] if frame.detail is Detail.TRACE else []
+    arbitration = Arbitration(function)
+    totals = Totals(function, arbitration)
+    start = _start(function, arbitration, totals)
+    step = _step(function, arbitration, totals)
+    finish = totals.finish()
+    arguments = [*ARGUMENTS, *(DETAILED if function.detail is not Detail.CREDIT else ())]
+    arguments += ["record"] if function.detail is Detail.TRACE else []
     return "\n".join(
         [
-            f"def {frame.detail.value}({', '.join(arguments)}):",
-            *indented(frame.scratch(), 1),
-            *indented(frame.call.lines, 1),
-            f"    for base in range(first, last, {frame.lanes}):",
+            f"def {function.detail.value}({', '.join(arguments)}):",
+            *indented(function.scratch(), 1),
+            *indented(function.call.lines, 1),
+            f"    for base in range(first, last, {function.lanes}):",
             *indented(start, 2),
-            f"        for step in range(1, {frame.meaning.spec.environment.steps + 1}):",
+            f"        for step in range(1, {function.meaning.spec.environment.steps + 1}):",
             *indented(step, 3),
             *indented(finish, 2),
-            *([] if frame.doubt is None else _ends_in_doubt(frame.doubt)),
+            *([] if function.uncertain is None else _ends_uncertain(function.uncertain)),
         ]
     )
 
 
-def _ends_in_doubt(doubt: str) -> list[str]:
-    """The lines that tell the caller whether a lane was in doubt, as soon as one was."""
-    return [f"        if {doubt}.sum() > 0.0:", "            return True", "    return False"]
+def _ends_uncertain(uncertain: str) -> list[str]:
+    """Return the lines that return whether a comparison of some lane was uncertain, as soon as one was."""
+    return [f"        if {uncertain}.sum() > 0.0:", "            return True", "    return False"]
 
 
-def _start(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
+def _start(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -> list[str]:
     """Every lane's key, tables, starting values and sums."""
-    emitter = frame.emitter("0", hinted=False)
-    wanted = {slot: frame.episode.start[slot] for slot in frame.slots}
+    emitter = function.emitter("0", hinted=False)
+    wanted = {slot: function.episode.start[slot] for slot in function.slots}
     emitter.prepare(wanted.values())
     first = emitter.blocks.stage(0)
-    first.lines += ["key[lane] = keys[base + lane]", *decision.start()]
+    first.lines += ["key[lane] = keys[base + lane]", *arbitration.start()]
     end = closing(emitter, wanted.values())
-    blocks = {slot: end.knowing(own=frame.is_own(array)) for slot, array in frame.slots.items()}
+    blocks = {slot: end.knowing(own=function.is_own(array)) for slot, array in function.slots.items()}
     texts = {slot: emitter.value(node, blocks[slot]) for slot, node in wanted.items()}
     for slot, text in texts.items():
-        blocks[slot].lines.append(frame.store(frame.slots[slot], text, wanted[slot].kind))
-    team, own = reckoning.start()
-    first.lines += [*team, *([] if frame.running is None else [f"{frame.running}[lane] = 1.0"])]
-    first.lines += [] if frame.doubt is None else [f"{frame.doubt}[lane] = 0.0"]
+        blocks[slot].lines.append(function.store(function.slots[slot], text, wanted[slot].kind))
+    team, own = totals.start()
+    first.lines += [*team, *([] if function.running is None else [f"{function.running}[lane] = 1.0"])]
+    first.lines += [] if function.uncertain is None else [f"{function.uncertain}[lane] = 0.0"]
     end.each.lines += own
-    return written(emitter.blocks, frame, split=frame.looped)
+    return written(emitter.blocks, function, split=function.looped)
 
 
-def _step(frame: Frame, decision: Decision, reckoning: Reckoning) -> list[str]:
+def _step(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -> list[str]:
     """A step of every lane, in the order of the language's definition."""
-    emitter = frame.emitter("step")
-    emitter.prepare([*frame.outputs, *frame.episode.choices], decision.stage)
-    deciding, end = emitter.blocks.stage(decision.stage), closing(emitter, frame.outputs)
+    emitter = function.emitter("step")
+    emitter.prepare([*function.outputs, *function.episode.choices], arbitration.stage)
+    deciding, end = emitter.blocks.stage(arbitration.stage), closing(emitter, function.outputs)
     deciding.lines.append(
         "# Decide: the highest layer that is excited and whose cell is not No Action controls."
     )
-    for robot in range(frame.robots):
-        decision.decide(robot, emitter, deciding)
+    for robot in range(function.robots):
+        arbitration.decide(robot, emitter, deciding)
     deciding.lines.append("# Act, then dynamics and sensors.")
-    after = _after(frame, emitter, end)
+    after = _after(function, emitter, end)
     end.each.lines.append("# Reward: what each robot earned goes to what controlled it.")
-    reckoning.add(emitter, end)
-    if frame.doubt is not None:
-        reckoning.add_doubt(frame.doubt, emitter, end)
-    if frame.detail is not Detail.CREDIT:
+    totals.add(emitter, end)
+    if function.uncertain is not None:
+        totals.add_uncertain(function.uncertain, emitter, end)
+    if function.detail is not Detail.CREDIT:
         end.each.lines.append("# What an evaluation adds up.")
-        reckoning.add_details(emitter, end)
-    if frame.detail is Detail.TRACE:
-        reckoning.record(emitter, end)
-    if frame.episode.ends is not None:
-        ended = emitter.value(frame.episode.ends, end.team)
+        totals.add_details(emitter, end)
+    if function.detail is Detail.TRACE:
+        totals.record(emitter, end)
+    if function.episode.ends is not None:
+        ended = emitter.value(function.episode.ends, end.team)
         end.team.lines.append(
-            f"{frame.running}[lane] = {frame.call_of('select', ended, '0.0', f'{frame.running}[lane]')}"
+            f"{function.running}[lane] = {function.call_of('select', ended, '0.0', f'{function.running}[lane]')}"
         )
     for slot, text in after.items():
-        array = frame.slots[slot]
-        block = end.storing(own=frame.is_own(array))
-        block.lines.append(frame.store(array, text, frame.episode.after[slot].kind))
-    all_over = [] if frame.running is None else [f"if {frame.running}.sum() == 0.0:", "    break"]
-    return [*decision.look_up(), *written(emitter.blocks, frame), *all_over]
+        array = function.slots[slot]
+        block = end.storing(own=function.is_own(array))
+        block.lines.append(function.store(array, text, function.episode.after[slot].kind))
+    all_over = [] if function.running is None else [f"if {function.running}.sum() == 0.0:", "    break"]
+    return [*arbitration.look_up(), *written(emitter.blocks, function), *all_over]
 
 
-def _after(frame: Frame, emitter: Emitter, end: Closing) -> dict[Slot, str]:
+def _after(function: RolloutFunction, emitter: Emitter, end: Closing) -> dict[Slot, str]:
     """What each slot that changes will hold, by names that stay true while slots are stored one after the other."""
     found = {}
-    for slot, array in frame.slots.items():
-        node, wanted = frame.episode.after[slot], f"next_{slot_text(slot, frame.robots)}"
+    for slot, array in function.slots.items():
+        node, wanted = function.episode.after[slot], f"next_{slot_text(slot, function.robots)}"
         if node.operation == "slot" and node.data == slot:
             continue
-        block = end.storing(own=frame.is_own(array))
+        block = end.storing(own=function.is_own(array))
         if node.operation == "slot":
             now = end.knowing(own=node.level in OWN)
             found[slot] = emitter.copied(node, wanted, now, block)

@@ -5,7 +5,7 @@ from bbsd.kernel.streams import fold, uniform, word_of
 MEMORY = 152
 
 
-def rollout(first, last, numbers, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
+def rollout(first, last, numbers, keys, individuals, packed_tables, tables, table_offsets, priorities, constants, returns, credit):
     streams = as_words(numbers)
     cells = as_integers(numbers)
     key = part(streams, 0, 8)
@@ -34,9 +34,9 @@ def rollout(first, last, numbers, keys, individuals, words, tables, origins, pri
         for lane in range(8):
             key[lane] = keys[base + lane]
             priority_wait[lane] = priorities[0, base + lane] + 1
-            table_wait[lane] = words[0, individuals[0, base + lane]]
+            table_wait[lane] = packed_tables[0, individuals[0, base + lane]]
             priority_come[lane] = priorities[1, base + lane]
-            row_come[lane] = origins[1] + individuals[1, base + lane] * 80
+            row_come[lane] = table_offsets[1] + individuals[1, base + lane] * 80
             part_1 = uniform(key[lane], draw_1, 0.0, 5.0)
             part_2 = uniform(key[lane], draw_2, 0.0, 5.0)
             x_0[lane] = part_1

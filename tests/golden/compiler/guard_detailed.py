@@ -5,7 +5,7 @@ from bbsd.kernel.streams import fold, uniform, word_of
 MEMORY = 224
 
 
-def rollout_detailed(first, last, numbers, keys, individuals, words, tables, origins, priorities, constants, returns, credit, terms, control, taken, odd, held):
+def rollout_detailed(first, last, numbers, keys, individuals, packed_tables, tables, table_offsets, priorities, constants, returns, credit, terms, control, steps_taken, not_finite, expectations_met):
     streams = as_words(numbers)
     cells = as_integers(numbers)
     key = part(streams, 0, 8)
@@ -18,15 +18,15 @@ def rollout_detailed(first, last, numbers, keys, individuals, words, tables, ori
     steps_wait = part(numbers, 56, 8)
     steps_come = part(numbers, 64, 8)
     steps_nobody = part(numbers, 72, 8)
-    taken_ = part(numbers, 80, 8)
+    steps_taken_ = part(numbers, 80, 8)
     total = part(numbers, 88, 8)
     credit_wait = part(numbers, 96, 8)
     credit_come = part(numbers, 104, 8)
     credit_nobody = part(numbers, 112, 8)
-    odd_x_0 = part(numbers, 120, 8)
-    odd_x_1 = part(numbers, 128, 8)
-    odd_middle_0 = part(numbers, 136, 8)
-    odd_middle_1 = part(numbers, 144, 8)
+    not_finite_x_0 = part(numbers, 120, 8)
+    not_finite_x_1 = part(numbers, 128, 8)
+    not_finite_middle_0 = part(numbers, 136, 8)
+    not_finite_middle_1 = part(numbers, 144, 8)
     running_ = part(numbers, 152, 8)
     priority_wait = part(cells, 160, 8)
     table_wait = part(cells, 168, 8)
@@ -43,9 +43,9 @@ def rollout_detailed(first, last, numbers, keys, individuals, words, tables, ori
         for lane in range(8):
             key[lane] = keys[base + lane]
             priority_wait[lane] = priorities[0, base + lane] + 1
-            table_wait[lane] = words[0, individuals[0, base + lane]]
+            table_wait[lane] = packed_tables[0, individuals[0, base + lane]]
             priority_come[lane] = priorities[1, base + lane]
-            row_come[lane] = origins[1] + individuals[1, base + lane] * 80
+            row_come[lane] = table_offsets[1] + individuals[1, base + lane] * 80
             part_1 = uniform(key[lane], draw_1, 0.0, 5.0)
             part_2 = uniform(key[lane], draw_2, 0.0, 5.0)
             x_0[lane] = part_1
@@ -61,11 +61,11 @@ def rollout_detailed(first, last, numbers, keys, individuals, words, tables, ori
             steps_wait[lane] = 0.0
             steps_come[lane] = 0.0
             steps_nobody[lane] = 0.0
-            taken_[lane] = 0.0
-            odd_x_0[lane] = 0.0
-            odd_x_1[lane] = 0.0
-            odd_middle_0[lane] = 0.0
-            odd_middle_1[lane] = 0.0
+            steps_taken_[lane] = 0.0
+            not_finite_x_0[lane] = 0.0
+            not_finite_x_1[lane] = 0.0
+            not_finite_middle_0[lane] = 0.0
+            not_finite_middle_1[lane] = 0.0
             running_[lane] = 1.0
         for step in range(1, 11):
             for lane in range(8):
@@ -105,11 +105,11 @@ def rollout_detailed(first, last, numbers, keys, individuals, words, tables, ori
                 steps_wait[lane] = steps_wait[lane] + select(action_0 == 1, running_[lane], 0.0) + select(action_1 == 1, running_[lane], 0.0)
                 steps_come[lane] = steps_come[lane] + select((action_0 >= 2) & (action_0 < 4), running_[lane], 0.0) + select((action_1 >= 2) & (action_1 < 4), running_[lane], 0.0)
                 steps_nobody[lane] = steps_nobody[lane] + select(action_0 == 0, running_[lane], 0.0) + select(action_1 == 0, running_[lane], 0.0)
-                odd_x_0[lane] = odd_x_0[lane] + select(is_finite(next_x_0), 0.0, running_[lane])
-                odd_x_1[lane] = odd_x_1[lane] + select(is_finite(next_x_1), 0.0, running_[lane])
-                odd_middle_0[lane] = odd_middle_0[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
-                odd_middle_1[lane] = odd_middle_1[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
-                taken_[lane] = taken_[lane] + running_[lane]
+                not_finite_x_0[lane] = not_finite_x_0[lane] + select(is_finite(next_x_0), 0.0, running_[lane])
+                not_finite_x_1[lane] = not_finite_x_1[lane] + select(is_finite(next_x_1), 0.0, running_[lane])
+                not_finite_middle_0[lane] = not_finite_middle_0[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
+                not_finite_middle_1[lane] = not_finite_middle_1[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
+                steps_taken_[lane] = steps_taken_[lane] + running_[lane]
                 running_[lane] = select((next_x_0 < 0.0) | (next_x_1 < 0.0), 0.0, running_[lane])
                 x_0[lane] = next_x_0
                 x_1[lane] = next_x_1
@@ -127,8 +127,8 @@ def rollout_detailed(first, last, numbers, keys, individuals, words, tables, ori
             control[0, base + lane] = steps_wait[lane]
             control[1, base + lane] = steps_come[lane]
             control[2, base + lane] = steps_nobody[lane]
-            taken[base + lane] = taken_[lane]
-            odd[0, base + lane] = odd_x_0[lane]
-            odd[1, base + lane] = odd_x_1[lane]
-            odd[2, base + lane] = odd_middle_0[lane]
-            odd[3, base + lane] = odd_middle_1[lane]
+            steps_taken[base + lane] = steps_taken_[lane]
+            not_finite[0, base + lane] = not_finite_x_0[lane]
+            not_finite[1, base + lane] = not_finite_x_1[lane]
+            not_finite[2, base + lane] = not_finite_middle_0[lane]
+            not_finite[3, base + lane] = not_finite_middle_1[lane]

@@ -7,7 +7,7 @@ MEMORY = 640
 BY_ROBOT_1 = (0xac39aeacbaa9b617, 0xffb22b91d28bcbe7, 0xff0a25df3a554bbe, 0xb26bdd26cb760ca9, 0xb3c40c665d9246a6, 0xb1922a1339548839, 0x8bfd19a806c68158, 0xea610af1d340b6eb)
 
 
-def rollout(first, last, numbers, keys, individuals, words, tables, origins, priorities, constants, returns, credit):
+def rollout(first, last, numbers, keys, individuals, packed_tables, tables, table_offsets, priorities, constants, returns, credit):
     streams = as_words(numbers)
     cells = as_integers(numbers)
     key = part(streams, 0, 8)
@@ -42,9 +42,9 @@ def rollout(first, last, numbers, keys, individuals, words, tables, origins, pri
         for lane in range(8):
             key[lane] = keys[base + lane]
             priority_wait[lane] = priorities[0, base + lane] + 1
-            table_wait[lane] = words[0, individuals[0, base + lane]]
+            table_wait[lane] = packed_tables[0, individuals[0, base + lane]]
             priority_come[lane] = priorities[1, base + lane]
-            row_come[lane] = origins[1] + individuals[1, base + lane] * 80
+            row_come[lane] = table_offsets[1] + individuals[1, base + lane] * 80
             total[lane] = 0.0
             credit_wait[lane] = 0.0
             credit_come[lane] = 0.0

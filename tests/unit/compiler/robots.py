@@ -13,7 +13,7 @@ from bbsd.language.models import Spec
 from bbsd.solver.random_agents import random_agents
 
 DETAILS = (Detail.CREDIT, Detail.TERMS)
-DETAILED = ("returns", "credit", "terms", "control", "taken", "odd", "held")
+DETAILED = ("returns", "credit", "terms", "control", "steps_taken", "not_finite", "expectations_met")
 
 STATE = {"x": "uniform(-2, 2)", "y": "normal(0, 1)", "n": "integers(0, 2)", "armed": "chance(0.5)"}
 

@@ -11,7 +11,7 @@ from tests.unit.architecture.designs import shipped
 from tests.unit.problems import RICH, episode_of, lived, problem_of
 
 N_AGENTS = 20
-OUTCOMES = ("returns", "credit", "terms", "control", "taken", "odd", "held")
+OUTCOMES = ("returns", "credit", "terms", "control", "steps_taken", "not_finite", "expectations_met")
 
 FIXED = """
 bbsd: 1
@@ -178,6 +178,6 @@ def test_a_trace_is_the_episode_that_a_rollout_lives():
         architecture = agents.architecture(agent)
         outcome = episode_of(problem, architecture.tables, architecture.structure, key=agent)
         traced = trace(problem, architecture, agent, 1)
-        assert len(traced.steps) == outcome.taken[0]
+        assert len(traced.steps) == outcome.steps_taken[0]
         earned = [np.sum(traced.rewards[term]) / 3 for term in ("near", "level")]
         np.testing.assert_allclose(outcome.terms[0], earned, rtol=1e-12)

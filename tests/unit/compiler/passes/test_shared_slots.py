@@ -3,7 +3,7 @@ import numpy as np
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.shared_slots import merged
-from bbsd.compiler.writing.rollout_function import Frame
+from bbsd.compiler.writing.rollout_function import RolloutFunction
 from bbsd.compiler.writing.source import module_source
 from tests.unit.architecture.designs import meaning_of, shipped
 from tests.unit.problems import RICH, lived, problem_of
@@ -27,7 +27,7 @@ reward: {{earned: seen}}
 def kept_slots(text):
     """The slots that a rollout keeps from step to step."""
     problem = problem_of(text)
-    return Frame(problem.meaning, problem.tables, 1, Detail.CREDIT).slots
+    return RolloutFunction(problem.meaning, problem.tables, 1, Detail.CREDIT).slots
 
 
 def test_what_all_robots_sense_alike_is_kept_once():
@@ -81,5 +81,13 @@ def test_merging_changes_no_bit():
             meaning, with_merging.tables, with_merging.layers, with_merging.candidates, 1, compiled=False
         )
         found, expected = lived(with_merging, 2), lived(without, 2)
-        for name in ("returns", "credit", "terms", "control", "taken", "odd", "held"):
+        for name in (
+            "returns",
+            "credit",
+            "terms",
+            "control",
+            "steps_taken",
+            "not_finite",
+            "expectations_met",
+        ):
             np.testing.assert_array_equal(getattr(found, name), getattr(expected, name))

@@ -67,11 +67,11 @@ def team_of(problem, n_agents=24, seed=0):
 
 
 def both(problem, seed=0):
-    """All bits of what the rollout and the detailed one give, and whether the first was in doubt."""
+    """All bits of what the rollout and the detailed one give, and whether the first was uncertain."""
     team, keys, structures = team_of(problem, seed=seed)
     outcome, detailed = team.episode(keys, structures), team.detailed_episode(keys, structures)
     bits = [[each.returns.tobytes(), each.credit.tobytes()] for each in (outcome, detailed)]
-    return bits[0], bits[1], team._doubtful
+    return bits[0], bits[1], team._uncertain
 
 
 COMPARED = {
@@ -95,18 +95,18 @@ COMPARED = {
 def test_comparisons_need_no_arctangent_and_change_no_bit(how, robots):
     problem = swaying(robots=robots, **COMPARED[how])
     assert arctangents_of_a_step(problem) == 0
-    swift, detailed, doubtful = both(problem)
+    swift, detailed, uncertain = both(problem)
     assert swift == detailed
-    assert not doubtful
+    assert not uncertain
 
 
 def test_lifting_computes_no_arctangent_in_its_steps_and_changes_no_bit():
     problem = problem_of(shipped("object_lifting"), lanes=16, compiled=True)
     assert arctangents_of_a_step(problem) == 0
     assert source_of(problem, Detail.TERMS).split("for step in")[1].count("atan(") == 1
-    swift, detailed, doubtful = both(problem)
+    swift, detailed, uncertain = both(problem)
     assert swift == detailed
-    assert not doubtful
+    assert not uncertain
 
 
 @pytest.mark.parametrize(
@@ -124,7 +124,7 @@ def test_lifting_computes_no_arctangent_in_its_steps_and_changes_no_bit():
 def test_an_angle_that_is_needed_is_computed_and_then_compared(needed):
     problem = swaying(**needed)
     assert arctangents_of_a_step(problem) > 0
-    assert "doubt" not in source_of(problem)
+    assert "uncertain" not in source_of(problem)
     swift, detailed, _ = both(problem)
     assert swift == detailed
 
@@ -150,30 +150,30 @@ def test_one_angle_is_needed_another_is_not():
 def test_where_a_comparison_is_not_certain_arctangents_decide(unsure, robots):
     problem = swaying(robots=robots, **unsure)
     assert arctangents_of_a_step(problem) == 0
-    swift, detailed, doubtful = both(problem)
-    assert doubtful
+    swift, detailed, uncertain = both(problem)
+    assert uncertain
     assert swift == detailed
 
 
-def test_a_doubt_after_the_end_of_an_episode_is_none():
+def test_an_uncertain_comparison_after_the_end_of_an_episode_does_not_count():
     settings = {"slope": "atan(sqrt(2.5 - step + 0 * x))", "leaning": "slope > steep", "robots": 1}
     assert both(swaying(**settings))[2]
-    swift, detailed, doubtful = both(swaying(ends='ends: "step >= 2"', **settings))
+    swift, detailed, uncertain = both(swaying(ends='ends: "step >= 2"', **settings))
     assert swift == detailed
-    assert not doubtful
+    assert not uncertain
 
 
-def test_a_doubt_of_the_team_is_one_where_robots_are_looped_over():
+def test_an_uncertain_comparison_of_the_team_is_one_where_robots_are_looped_over():
     settings = {"reward": "1 if atan(sqrt(sum(x[r] for r in team))) > 0.5 else 0", "robots": 5}
     problem = swaying(**settings)
     assert arctangents_of_a_step(problem) == 0
-    swift, detailed, doubtful = both(problem)
-    assert doubtful
+    swift, detailed, uncertain = both(problem)
+    assert uncertain
     assert swift == detailed
 
 
-@pytest.mark.parametrize("doubtful_lane", [None, 3, 150])
-def test_one_doubt_among_many_lanes_in_one_of_several_threads(doubtful_lane):
+@pytest.mark.parametrize("uncertain_lane", [None, 3, 150])
+def test_one_uncertain_comparison_among_many_lanes_in_one_of_several_threads(uncertain_lane):
     text = SWAYING.format(
         robots=1,
         slope="atan(sqrt(x))",
@@ -190,15 +190,15 @@ def test_one_doubt_among_many_lanes_in_one_of_several_threads(doubtful_lane):
     text = text.replace("x: x + 0.5", "x: -1").replace("x: x - 0.5", "x: 1001")
     problem = problem_of(text, lanes=8, compiled=True, jobs=2)
     choices = np.full(160, 2, np.uint8)
-    if doubtful_lane is not None:
-        choices[doubtful_lane] = 1
+    if uncertain_lane is not None:
+        choices[uncertain_lane] = 1
     pools = (np.repeat(choices[:, np.newaxis], 2, axis=1), np.zeros((160, 1), np.uint8))
     members = np.stack([np.arange(160), np.arange(160)], axis=1)
     team = problem.assemble(pools, members, 1)
     assert len(team._spans()) == 2
     returns = team.episode(np.arange(160, dtype=np.uint64), np.tile([1, 0], (160, 1))).returns
-    assert returns.tolist() == [0.0 if lane == doubtful_lane else 1500.0 for lane in range(160)]
-    assert team._doubtful is (doubtful_lane is not None)
+    assert returns.tolist() == [0.0 if lane == uncertain_lane else 1500.0 for lane in range(160)]
+    assert team._uncertain is (uncertain_lane is not None)
 
 
 # --- Told apart from all else in the episode
@@ -222,9 +222,9 @@ def test_a_slot_of_the_designer_s_with_the_name_of_a_tangent():
         for reward in ("tangent_of_slope", "1"):
             problem = problem_of(text.format(robots=robots, reward=reward))
             assert arctangents_of_a_step(problem) == 0
-            swift, detailed, doubtful = both(problem)
+            swift, detailed, uncertain = both(problem)
             assert swift == detailed
-            assert not doubtful
+            assert not uncertain
 
 
 @pytest.mark.parametrize("robots", [1, 2, 3, 5])
@@ -242,9 +242,9 @@ def test_what_nothing_earned_depends_on_has_numbers_of_its_own(sets, robots):
     reward: {{earned: "1 if atan(x) > 0.6 else 0"}}
     """)
     assert arctangents_of_a_step(problem) == 0
-    swift, detailed, doubtful = both(problem)
+    swift, detailed, uncertain = both(problem)
     assert swift == detailed
-    assert not doubtful
+    assert not uncertain
 
 
 @pytest.mark.parametrize("robots", [1, 2, 5])
@@ -270,7 +270,8 @@ def test_comparisons_at_the_start_are_made_with_arctangents(robots):
 def test_thousands_of_comparisons_do_not_nest():
     problem = swaying(robots=1, y="y / 2", reward="sum(1 if atan(x * k) > 0.1 else 0 for k in range(4000))")
     assert (
-        max(line.count("select") for line in source_of(problem).splitlines() if "doubt[lane] =" in line) == 1
+        max(line.count("select") for line in source_of(problem).splitlines() if "uncertain[lane] =" in line)
+        == 1
     )
 
 

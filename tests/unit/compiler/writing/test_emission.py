@@ -21,7 +21,7 @@ NUMBERS = ("+", "-", "*", "minimum", "divide", "floor_divide", "modulo")
 def emitter(hints=None):
     """An emitter of one loop over lanes, in which nothing crosses to another one."""
     blocks = Blocks(Block(Level.CALL), looped=False)
-    loops = Loops(frame=None)
+    loops = Loops(function=None)
     return Emitter(Namer(), loops, lambda node: (node.data, ATOM), "key", "step", hints or {}, blocks)
 
 

@@ -110,4 +110,4 @@ def test_an_episode_that_cannot_end_early_has_no_test_for_it():
     text = GUARD.replace("  ends: any(x[r] < 0 for r in team)\n", "")
     assert "break" in source_of(problem_of(GUARD), Detail.CREDIT)
     assert "break" not in source_of(problem_of(text), Detail.CREDIT)
-    assert lived(problem_of(text), 5).taken.tolist() == [10] * 5
+    assert lived(problem_of(text), 5).steps_taken.tolist() == [10] * 5

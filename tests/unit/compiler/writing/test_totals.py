@@ -74,7 +74,7 @@ def test_terms_that_are_mostly_nothing_add_up_alike_with_details_and_without(rew
 
 def test_the_step_in_which_an_episode_ends_is_the_last_that_counts():
     outcome = episode_of(counting(ends="any(x[r] >= 3 for r in team)"), NEAR_AND_FAR, [0, 1])
-    assert outcome.taken.tolist() == [2]
+    assert outcome.steps_taken.tolist() == [2]
     assert outcome.returns.tolist() == [(11 + 12 + 12 + 13) / 2]
     assert outcome.credit.tolist() == [[(23 + 25) / 2, 0, 0]]
     assert outcome.control.tolist() == [[4, 0, 0]]
@@ -95,9 +95,9 @@ def test_lanes_end_by_themselves():
     reward: {each: 1}
     """
     alone, together = (lived(problem_of(text, lanes=lanes), 30) for lanes in (1, 30))
-    assert len(set(alone.taken)) > 10
-    np.testing.assert_array_equal(alone.taken, alone.returns)
-    np.testing.assert_array_equal(together.taken, alone.taken)
+    assert len(set(alone.steps_taken)) > 10
+    np.testing.assert_array_equal(alone.steps_taken, alone.returns)
+    np.testing.assert_array_equal(together.steps_taken, alone.steps_taken)
     np.testing.assert_array_equal(together.control, alone.control)
 
 
@@ -117,7 +117,7 @@ def test_steps_in_which_a_value_is_not_finite_are_counted_by_its_place():
     reward: {each: 1}
     """
     problem = problem_of(text)
-    counted = dict(zip(problem.places, episode_of(problem, [[0]], [0]).odd[0].tolist(), strict=True))
+    counted = dict(zip(problem.places, episode_of(problem, [[0]], [0]).not_finite[0].tolist(), strict=True))
     assert counted == {
         ("w", None, ()): 1,
         ("x", 0, ()): 0,
@@ -133,7 +133,7 @@ def test_the_columns_of_credit_earn_the_return_together():
     outcome = lived(problem_of(RICH), 20)
     np.testing.assert_allclose(outcome.credit.sum(axis=1), outcome.returns, rtol=1e-12)
     np.testing.assert_allclose(outcome.terms.sum(axis=1), outcome.returns, rtol=1e-12)
-    np.testing.assert_array_equal(outcome.control.sum(axis=1), 3 * outcome.taken)
+    np.testing.assert_array_equal(outcome.control.sum(axis=1), 3 * outcome.steps_taken)
 
 
 EXPECTING = """
@@ -157,6 +157,6 @@ reward: {each: 1}
 def test_expectations_are_counted_after_the_steps_that_their_behavior_controlled():
     # Robot 0 is at 0, 1, 2 before and 1, 2, 3 after steps of low; robot 1 at 1, 2 and 2, 3, then at 3 under high.
     outcome = episode_of(problem_of(EXPECTING), [[1, 0], [0], [0, 1]], [0, 1, 2])
-    assert outcome.taken.tolist() == [3]
+    assert outcome.steps_taken.tolist() == [3]
     assert outcome.control.tolist() == [[5, 0, 1, 0]]
-    assert outcome.held.tolist() == [[3, 0]]
+    assert outcome.expectations_met.tolist() == [[3, 0]]
