@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.details import Detail, checked_slots
-from bbsd.compiler.passes.shared_slots import merged
+from bbsd.compiler.passes.shared_slots import share_slots
 from bbsd.compiler.tables import Pool, TableShape, shape_of
 from bbsd.compiler.team import Team
 from bbsd.compiler.writing.source import module_source
@@ -136,7 +136,7 @@ def compile_meaning(
     """Compile a spec's meaning. As plain Python, one lane at a time is the default."""
     structure = meaning.structure
     return Problem(
-        merged(meaning),
+        share_slots(meaning),
         tuple(
             shape_of(module, left_out=index not in (*structure.layers, *structure.candidates))
             for index, module in enumerate(meaning.episode.modules)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from bbsd.compiler.passes.pairs import (
     CHAINS,
-    MOST_WRITTEN_OUT,
+    MOST_PAIRS_WRITTEN_OUT,
     Chain,
     Pairs,
     chain_of,
@@ -73,7 +73,7 @@ class Folds:
             return
         for others in (True, False):
             n_links = self.new.robots - others
-            if n_links > MOST_WRITTEN_OUT and (chain := chain_to(nodes, n_links, others=others)):
+            if n_links > MOST_PAIRS_WRITTEN_OUT and (chain := chain_to(nodes, n_links, others=others)):
                 yield self._plan_of_among(self._number_of(chain))
 
     def _plan_of_among(self, number: int) -> Plan:

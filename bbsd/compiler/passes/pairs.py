@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from bbsd.language.meaning.names import Slot
 
-MOST_WRITTEN_OUT = 8
+MOST_PAIRS_WRITTEN_OUT = 8
 """Robots looked at up to this number are written out, which runs faster."""
 FOLDS = frozenset({"+", "*", "minimum", "maximum", "&", "|"})
 SELECT = "select"

@@ -21,20 +21,20 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.episode import Episode
     from bbsd.language.meaning.names import Slot
 
-MOST_WRITTEN_OUT = 3
+MOST_ROBOTS_WRITTEN_OUT = 3
 """Robots up to this number are written one after the other, which runs faster."""
 
 Place = tuple[str, tuple[int, ...]]
 """A slot's name and place, of any robot."""
 
 
-def rolled(meaning: Meaning, written_out: int = MOST_WRITTEN_OUT) -> Meaning:
+def loop_over_robots(meaning: Meaning, most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> Meaning:
     """The same meaning with one node for what each robot computes, where there are many robots.
 
     In what comes back every robot's slots, choices and reward have the index 0, and stand for all robots.
     """
     robots = meaning.spec.environment.robots
-    if robots <= written_out:
+    if robots <= most_written_out:
         return meaning
     try:
         return replace(meaning, episode=_episode(meaning.episode, robots))

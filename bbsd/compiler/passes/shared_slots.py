@@ -22,7 +22,7 @@ Renamed = dict[int, Node]
 """Nodes by the number of the node they stand for."""
 
 
-def merged(meaning: Meaning) -> Meaning:
+def share_slots(meaning: Meaning) -> Meaning:
     """The same meaning, every group of equal slots read from its first one."""
     episode, graph = meaning.episode, replace(meaning.graph, bounded=False)
     groups = _groups(episode, graph)

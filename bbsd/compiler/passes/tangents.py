@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from math import isnan
 from typing import TYPE_CHECKING, cast
 
-from bbsd.compiler.writing.rollout_function import credited, with_slots_read
+from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
 from bbsd.expression.graph import Graph, Kind, Level, Node, needed, value_of
 
 if TYPE_CHECKING:
@@ -39,12 +39,12 @@ class Angle:
     """Whether it is certainly from 0 to a right angle."""
 
 
-def by_tangents(episode: Episode) -> tuple[Episode, tuple[Node, ...]]:
+def compare_tangents(episode: Episode) -> tuple[Episode, tuple[Node, ...]]:
     """The same episode with as few arctangents as possible, and truths: whether its comparisons are certain.
 
     Holds for what is needed of a step for returns and credit. Without such comparisons the episode is as it was.
     """
-    outputs = with_slots_read(credited(episode), episode)
+    outputs = with_slots_read(credit_outputs(episode), episode)
     if not any(node.operation == "atan" for node in needed(outputs)):
         return episode, ()
     rewriting = _Rewriting(episode, outputs)
@@ -85,7 +85,7 @@ class _Rewriting:
     @property
     def outputs(self) -> list[Node]:
         """What a step computes now."""
-        return with_slots_read(credited(self.episode), self.episode)
+        return with_slots_read(credit_outputs(self.episode), self.episode)
 
     @property
     def arctangents(self) -> frozenset[int]:

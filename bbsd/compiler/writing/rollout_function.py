@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 from bbsd.compiler.details import Detail, traced_definitions
+from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
 from bbsd.compiler.writing.blocks import Block, Blocks
 from bbsd.compiler.writing.emission import Emitter
 from bbsd.compiler.writing.looping import Loops
@@ -158,7 +159,7 @@ class RolloutFunction:
     def outputs(self) -> list[Node]:
         """What a step computes: what is asked for, and every slot that this reads in a later step, and so on."""
         episode = self.episode
-        wanted = [*credited(episode), *self.proven]
+        wanted = [*credit_outputs(episode), *self.proven]
         if self.detail is not Detail.CREDIT:
             wanted += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
             wanted += [node for nodes in episode.expects.values() for node in nodes]
@@ -228,24 +229,6 @@ class RolloutFunction:
             for name, value in self.meaning.constants.values.items()
             for place in _places(value)
         ]
-
-
-def credited(episode: Episode) -> list[Node]:
-    """What returns and credit depend on in each step."""
-    decided = [node for module in episode.modules for node in module.nodes]
-    earned = [node for nodes in episode.reward.values() for node in nodes]
-    return [*decided, *earned, *([] if episode.ends is None else [episode.ends])]
-
-
-def with_slots_read(wanted: Iterable[Node], episode: Episode) -> list[Node]:
-    """Nodes of a step and those of all slots that they read in a later step, and so on."""
-    wanted, kept = list(wanted), set[object]()
-    while True:
-        every = [*wanted, *(node for slot, node in episode.after.items() if slot in kept)]
-        read = {node.data for node in needed(every) if node.operation == "slot"}
-        if read == kept:
-            return every
-        kept = read
 
 
 def indented(lines: Iterable[str], depth: int) -> list[str]:

@@ -10,8 +10,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import Detail
-from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
-from bbsd.compiler.passes.tangents import by_tangents
+from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
+from bbsd.compiler.passes.tangents import compare_tangents
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.loop_fission import written
 from bbsd.compiler.writing.naming import slot_text
@@ -40,17 +40,17 @@ def module_source(
     shapes: Sequence[TableShape],
     lanes: int,
     details: Sequence[Detail],
-    written_out: int = MOST_WRITTEN_OUT,
+    most_written_out: int = MOST_ROBOTS_WRITTEN_OUT,
 ) -> str:
     """The source of a module with a rollout for each detail asked for, and how much memory they want.
 
     More robots than are to be written out stand in loops; those of a trace never do.
     """
     texts, used, tables, memory_size = [], set(), dict[str, str](), 0
-    short = rolled(meaning, written_out)
+    short = loop_over_robots(meaning, most_written_out)
     for detail in details:
         meant = meaning if detail is Detail.TRACE else short
-        episode, proven = by_tangents(meant.episode) if detail is Detail.CREDIT else (meant.episode, ())
+        episode, proven = compare_tangents(meant.episode) if detail is Detail.CREDIT else (meant.episode, ())
         function = RolloutFunction(replace(meant, episode=episode), shapes, lanes, detail, proven, tables)
         texts.append(f"\n{rollout_source(function)}")
         used |= function.used

@@ -14,7 +14,7 @@ __all__ = ["graph"]
 
 @pytest.fixture(autouse=True)
 def few(monkeypatch):
-    monkeypatch.setattr(folds, "MOST_WRITTEN_OUT", 2)
+    monkeypatch.setattr(folds, "MOST_PAIRS_WRITTEN_OUT", 2)
 
 
 def each(nodes, *known):
@@ -72,7 +72,7 @@ def test_draws_for_each_pair_are_written_out(graph):
 
 
 def test_few_are_written_out(graph, monkeypatch):
-    monkeypatch.setattr(folds, "MOST_WRITTEN_OUT", 4)
+    monkeypatch.setattr(folds, "MOST_PAIRS_WRITTEN_OUT", 4)
     assert each(sums(graph, lambda i, j: distance(graph, i, j))).operation == "+"
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes import folds
-from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
+from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
 from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from tests.interpreter.made_up import specs
@@ -283,7 +283,7 @@ def test_loops_change_no_bit(case, lanes):
 @pytest.fixture
 def paired(monkeypatch):
     """Robots that look at five or more have loops over those that they look at."""
-    monkeypatch.setattr(folds, "MOST_WRITTEN_OUT", 4)
+    monkeypatch.setattr(folds, "MOST_PAIRS_WRITTEN_OUT", 4)
 
 
 @pytest.mark.usefixtures("paired")
@@ -307,7 +307,7 @@ WRITTEN_OUT = {"roles among them", "draws for each", "folds of three robots"}
 @pytest.mark.parametrize("case", [case for case in PAIRS if case not in WRITTEN_OUT])
 def test_the_source_does_not_grow_with_the_number_of_robots_that_look_at_one_another(case):
     few, many = (
-        source_with(moving(robots=robots, **PAIRS[case]), MOST_WRITTEN_OUT, (Detail.CREDIT,))
+        source_with(moving(robots=robots, **PAIRS[case]), MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,))
         for robots in (11, 16)
     )
     assert "for pair in range(10):" in few
@@ -317,13 +317,15 @@ def test_the_source_does_not_grow_with_the_number_of_robots_that_look_at_one_ano
 @pytest.mark.parametrize(("robots", "n_loops"), [(8, 0), (9, 0), (10, 1)])
 def test_few_robots_that_are_looked_at_are_written_out(robots, n_loops):
     problem = moving(robots=robots, sensors={"s": "sum(x[r] * x for r in others)"}, dynamics={"y": "s"})
-    source = source_with(problem, MOST_WRITTEN_OUT, (Detail.CREDIT,))
+    source = source_with(problem, MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,))
     assert source.count("for pair in") == 2 * n_loops  # at the start and in a step
 
 
 def test_a_literal_of_the_robot_looked_at_is_read_before_the_lanes():
     problem = moving(robots=12, sensors={"s": "argmin(abs(x[r] - x) for r in others)"}, dynamics={"y": "s"})
-    lines = [line.strip() for line in source_with(problem, MOST_WRITTEN_OUT, (Detail.CREDIT,)).splitlines()]
+    lines = [
+        line.strip() for line in source_with(problem, MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,)).splitlines()
+    ]
     place = lines.index("theirs = other * stride")
     assert lines[place + 1].startswith("its_1 = BY_ROBOT_")
     assert lines[place + 1].endswith("[other]")
@@ -345,7 +347,7 @@ def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, genera
     problem = compile_meaning(meaning, lanes=lanes, compiled=False)
     written_out = bits(with_loops(problem, 100), 3, seed, generation)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(folds, "MOST_WRITTEN_OUT", looked_at)
+        patch.setattr(folds, "MOST_PAIRS_WRITTEN_OUT", looked_at)
         assert bits(with_loops(problem, 1), 3, seed, generation) == written_out
 
 
@@ -377,7 +379,7 @@ def test_long_sums_of_a_robot_s_own_are_not_taken_for_folds_again_and_again():
     problem = moving(
         robots=12, definitions={"a0": "x * y", "a1": "y", "a2": "x", **walk}, dynamics={"y": "a44"}
     )
-    assert "for pair in" not in source_with(problem, MOST_WRITTEN_OUT, (Detail.CREDIT,))
+    assert "for pair in" not in source_with(problem, MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,))
 
 
 def test_loops_are_compiled_to_the_same_bits():
@@ -391,14 +393,14 @@ def test_loops_are_compiled_to_the_same_bits():
 @pytest.mark.parametrize("robots", [1, 2, 3, 4, 5])
 def test_few_robots_are_written_out(robots):
     problem = moving(robots=robots)
-    source = source_with(problem, MOST_WRITTEN_OUT)
-    assert ("for robot in range(" in source) is (robots > MOST_WRITTEN_OUT)
-    assert (rolled(problem.meaning) is problem.meaning) is (robots <= MOST_WRITTEN_OUT)
+    source = source_with(problem, MOST_ROBOTS_WRITTEN_OUT)
+    assert ("for robot in range(" in source) is (robots > MOST_ROBOTS_WRITTEN_OUT)
+    assert (loop_over_robots(problem.meaning) is problem.meaning) is (robots <= MOST_ROBOTS_WRITTEN_OUT)
 
 
 def test_the_source_does_not_grow_with_the_number_of_robots():
     few, many = (
-        source_with(moving(robots=robots, **CASES["folds"]), MOST_WRITTEN_OUT, (Detail.CREDIT,))
+        source_with(moving(robots=robots, **CASES["folds"]), MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,))
         for robots in (4, 40)
     )
     assert len(many.splitlines()) == len(few.splitlines())
@@ -418,7 +420,7 @@ def test_what_all_robots_hold_alike_is_stored_once():
 def test_robots_that_need_one_another_are_written_out():
     problem = moving(sensors={"a": "x if robot == 0 else (x[0] + 1) * 2", "b": "a + 1"}, dynamics={"y": "b"})
     assert_loops_change_no_bit(problem, looped=False)
-    assert rolled(problem.meaning, 1) is problem.meaning
+    assert loop_over_robots(problem.meaning, 1) is problem.meaning
 
 
 def test_a_trace_is_written_robot_by_robot():
@@ -427,7 +429,7 @@ def test_a_trace_is_written_robot_by_robot():
 
 def test_values_that_are_not_finite_are_counted_at_their_place():
     problem = moving(lanes=2, **CASES["values that are not finite"])
-    assert "for robot in" in source_with(problem, MOST_WRITTEN_OUT)
+    assert "for robot in" in source_with(problem, MOST_ROBOTS_WRITTEN_OUT)
     odd = dict(zip(problem.places, lived(problem, 3).not_finite[0].tolist(), strict=True))
     assert [odd["y", robot, ()] for robot in range(4)] == [0, 0, 6, 0]
     assert [odd["eyes", robot, (2,)] for robot in range(4)] == [6, 0, 0, 0]

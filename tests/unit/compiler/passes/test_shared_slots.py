@@ -2,7 +2,7 @@ import numpy as np
 
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.details import Detail
-from bbsd.compiler.passes.shared_slots import merged
+from bbsd.compiler.passes.shared_slots import share_slots
 from bbsd.compiler.writing.rollout_function import RolloutFunction
 from bbsd.compiler.writing.source import module_source
 from tests.unit.architecture.designs import meaning_of, shipped
@@ -60,7 +60,7 @@ def test_a_truth_and_a_number_that_start_alike_are_two():
 
 def test_nothing_to_merge_leaves_the_meaning_as_it_is():
     meaning = meaning_of(shipped("abstract"))
-    assert merged(meaning) is meaning
+    assert share_slots(meaning) is meaning
 
 
 def test_lifting_s_tilt_is_computed_once():

@@ -8,7 +8,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from bbsd.compiler.details import Detail
-from bbsd.compiler.passes.tangents import by_tangents
+from bbsd.compiler.passes.tangents import compare_tangents
 from bbsd.compiler.writing.source import module_source
 from bbsd.expression.graph import evaluate
 from bbsd.kernel import functions
@@ -288,7 +288,7 @@ def compared(text):
     behaviors: {{b: {{inputs: {{far: u > v}}, actions: {{a: {{u: u}}}}}}}}
     reward: {{earned: "{text}"}}
     """).episode
-    after, certain = by_tangents(episode)
+    after, certain = compare_tangents(episode)
     assert certain
     return [*episode.reward["earned"], *after.reward["earned"], *certain]
 

@@ -4,7 +4,7 @@ import pytest
 
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.robot_graph import RobotGraph
-from bbsd.compiler.passes.robot_loops import rolled
+from bbsd.compiler.passes.robot_loops import loop_over_robots
 from bbsd.compiler.writing.rollout_function import RolloutFunction
 from bbsd.expression.graph import Kind, Level
 from tests.unit.compiler.robots import moving
@@ -14,7 +14,7 @@ from tests.unit.compiler.robots import moving
 def function():
     """A rollout of four robots with a number x, a truth armed and a world's number wind."""
     problem = moving(sensors={"s": "x[0] + wind"}, dynamics={"x": "x + s"})
-    return RolloutFunction(rolled(problem.meaning, 1), problem.tables, 8, Detail.CREDIT)
+    return RolloutFunction(loop_over_robots(problem.meaning, 1), problem.tables, 8, Detail.CREDIT)
 
 
 @pytest.fixture

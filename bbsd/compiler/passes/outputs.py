@@ -1,0 +1,31 @@
+"""What the outputs of a step need: the nodes that a rollout computes, and the slots that they read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.expression.graph import needed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bbsd.expression.graph import Node
+    from bbsd.language.meaning.episode import Episode
+
+
+def credit_outputs(episode: Episode) -> list[Node]:
+    """Return the nodes of a step that returns and credit depend on."""
+    decided = [node for module in episode.modules for node in module.nodes]
+    earned = [node for nodes in episode.reward.values() for node in nodes]
+    return [*decided, *earned, *([] if episode.ends is None else [episode.ends])]
+
+
+def with_slots_read(outputs: Iterable[Node], episode: Episode) -> list[Node]:
+    """Return nodes of a step, and the next values of all slots that they read, of the slots these read, and so on."""
+    outputs, slots = list(outputs), set[object]()
+    while True:
+        nodes = [*outputs, *(node for slot, node in episode.after.items() if slot in slots)]
+        read = {node.data for node in needed(nodes) if node.operation == "slot"}
+        if read == slots:
+            return nodes
+        slots = read
