@@ -1,6 +1,6 @@
-"""A request to stop, which long loops look at between compiled calls.
+"""A request to stop, which long loops check between compiled calls.
 
-It stands below evaluation and the method, so that both can answer it; `runs.signals` makes one of Ctrl-C.
+It stands below evaluation and the method, so that both can heed it; `runs.signals` makes one of Ctrl-C.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 class StopRequest:
-    """A request that the work of a context should stop; once made it stays."""
+    """A request that the work of a context should stop; once made it cannot be withdrawn."""
 
     def __init__(self) -> None:
         self._made = threading.Event()
         self._listeners: list[Callable[[], object]] = []
-        self._notifying = threading.RLock()  # a signal handler may run in the middle of it
+        self._notifying = threading.RLock()  # reentrant: a signal handler may run in the middle of `make`
 
     def make(self) -> None:
         """Make the request and call all listeners; from any thread."""
@@ -31,7 +31,7 @@ class StopRequest:
                     listener()
 
     def when_made(self, listener: Callable[[], object]) -> None:
-        """Call the listener once the request is made, at once if it already was."""
+        """Call the listener when the request is made, at once if it already was."""
         with self._notifying:
             self._listeners.append(listener)
             if self._made.is_set():
@@ -54,7 +54,7 @@ def raise_if_stopped() -> None:
 
 
 def current_stop_request() -> StopRequest:
-    """Return the request that this context looks at; RuntimeError where there is none."""
+    """Return the stop request of this context; raises RuntimeError where there is none."""
     request = _current.get()
     if request is None:
         raise RuntimeError("this context has no stop request")
@@ -62,7 +62,7 @@ def current_stop_request() -> StopRequest:
 
 
 def stop_request_of_process() -> StopRequest:
-    """Return a new request for a process that does nothing but one design's work."""
+    """Set and return a new request for a process that does nothing but the work of one design."""
     request = StopRequest()
     _current.set(request)
     return request
@@ -70,7 +70,7 @@ def stop_request_of_process() -> StopRequest:
 
 @contextmanager
 def stop_request_of_context() -> Iterator[StopRequest]:
-    """Give this context a request of its own until it is left."""
+    """Give the current context a request of its own inside a `with` block."""
     request = StopRequest()
     token = _current.set(request)
     try:

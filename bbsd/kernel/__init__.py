@@ -1,1 +1,1 @@
-"""Elementary functions, random streams, and generated modules that are compiled or plain Python."""
+"""The only package that knows Numba: elementary functions, random streams, loading and compiling of kernels."""

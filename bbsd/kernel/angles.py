@@ -1,4 +1,4 @@
-"""The functions of angles, in radians; what `functions` says of itself holds here too."""
+"""The trigonometric functions, in radians; they keep the promises that `functions` makes for its own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LARGEST_ANGLE = 2.0**50  # beyond it an angle has no digit left that says where 
 
 
 def _within_quarter(x: float, shifted: float) -> tuple[float, float]:
-    """What x leaves beside the quarter turns in `shifted`, and what that misses; pi/2 in three parts."""
+    """Return the rest of x beside the quarter turns in `shifted`, and its rounding error; pi/2 has three parts."""
     count = shifted - SHIFT
     first = x - count * 1.5707963267341256
     product = count * 6.077100506303966e-11
@@ -25,7 +25,7 @@ def _within_quarter(x: float, shifted: float) -> tuple[float, float]:
 
 
 def _sine_beyond(r: float, rest: float) -> float:
-    """sin(r + rest) - r for |r| <= pi/4, error 1.1e-17 of the sine."""
+    """Return sin(r + rest) - r for |r| <= pi/4, error 1.1e-17 of the sine."""
     z = r * r
     p = -2.5050747056250412e-08 + z * 1.5896187969448742e-10
     p = -0.00019841269829577374 + z * (2.755731361701532e-06 + z * p)
@@ -33,7 +33,7 @@ def _sine_beyond(r: float, rest: float) -> float:
 
 
 def _cosine_below(r: float, rest: float) -> float:
-    """1 - cos(r + rest) for |r| <= pi/4, error 1.2e-18 of the cosine."""
+    """Return 1 - cos(r + rest) for |r| <= pi/4, error 1.2e-18 of the cosine."""
     z = r * r
     p = 2.087570028907216e-09 + z * -1.1358507223669601e-11
     p = 2.480158728883832e-05 + z * (-2.755731417532794e-07 + z * p)
@@ -42,7 +42,7 @@ def _cosine_below(r: float, rest: float) -> float:
 
 
 def _wave(x: float, turn: int) -> float:
-    """sin(x + turn * pi/2)."""
+    """Return sin(x + turn * pi/2)."""
     angle = select(abs(x) < LARGEST_ANGLE, x, NAN)
     shifted = angle * 0.6366197723675814 + SHIFT
     r, rest = _within_quarter(angle, shifted)
@@ -52,17 +52,17 @@ def _wave(x: float, turn: int) -> float:
 
 
 def sin(x: float) -> float:
-    """The sine, within 1.5 ulp for |x| <= 1e6; up to 2**50 the angle is off by its last bit, then NaN."""
+    """Return the sine, within 1.5 ulp for |x| <= 1e6; up to 2**50 the angle is off by its last bit, then NaN."""
     return _wave(x, 0)
 
 
 def cos(x: float) -> float:
-    """The cosine, as exact as `sin`."""
+    """Return the cosine, as exact as `sin`."""
     return _wave(x, 1)
 
 
 def tan(x: float) -> float:
-    """The tangent, within 2 ulp for |x| <= 1e6, beyond as `sin`."""
+    """Return the tangent, within 2 ulp for |x| <= 1e6, beyond as `sin`."""
     angle = select(abs(x) < LARGEST_ANGLE, x, NAN)
     shifted = angle * 0.6366197723675814 + SHIFT
     r, rest = _within_quarter(angle, shifted)
@@ -76,7 +76,7 @@ def tan(x: float) -> float:
 
 
 def _angle(opposite: float, adjacent: float, leftward: bool) -> float:
-    """The angle of a right triangle, or pi less it: one division, |t| <= tan(pi/8), error 6.5e-18 of it."""
+    """Return the angle of a right triangle, or pi less it: one division, |t| <= tan(pi/8), error 6.5e-18 of it."""
     flat = opposite <= 0.41421356237309503 * adjacent
     steep = opposite > 2.414213562373095 * adjacent
     above = select(flat, opposite, select(steep, -adjacent, opposite - adjacent))
@@ -99,12 +99,12 @@ def _angle(opposite: float, adjacent: float, leftward: bool) -> float:
 
 
 def atan(x: float) -> float:
-    """The arctangent, within 2 ulp."""
+    """Return the arctangent, within 2 ulp."""
     return copysign(_angle(abs(x), 1.0, False), x)
 
 
 def atan2(y: float, x: float) -> float:
-    """The angle of the point (x, y), -pi .. pi, within 2 ulp for coordinates 0 or in 1e-290 .. 1e307."""
+    """Return the angle of the point (x, y), -pi .. pi, within 2 ulp for coordinates 0 or in 1e-290 .. 1e307."""
     opposite, adjacent = abs(y), abs(x)
     alike = opposite == adjacent  # both zero or both infinite, too
     leftward = (x < 0.0) | ((y == 0.0) & (copysign(1.0, x) < 0.0))
@@ -117,17 +117,17 @@ def atan2(y: float, x: float) -> float:
 
 
 def tangent_slack(angle: float) -> float:
-    """What a number differs at least from tan(angle) where its arctangent certainly compares with the angle alike.
+    """Return the distance from tan(angle) beyond which a number compares with it as its arctangent does with the angle.
 
-    Three hundred times what rounding can come to (`atan`, `tan`, degrees, a difference of two arctangents: 3e-15 in
-    all), for -1.55 <= angle <= 1.55; NaN beyond, where a tangent says little.
+    That is three hundred times the greatest rounding error (`atan`, `tan`, degrees and a difference of two arctangents
+    have 3e-15 in all), for -1.55 <= angle <= 1.55; NaN beyond, where the tangent is too steep.
     """
     tangent = tan(angle)
     return select(abs(angle) <= STEEPEST, 1e-12 * (1.0 + tangent * tangent), NAN)
 
 
 def _arc_beyond(s: float, z: float) -> float:
-    """The arcsine of s less s, 0 <= s <= 1/2, s*s = z, error 2.8e-18 of the arcsine."""
+    """Return the arcsine of s less s, 0 <= s <= 1/2, s*s = z, error 2.8e-18 of the arcsine."""
     p = 0.021734622430162158 + z * (-0.02103853675164118 + z * 0.032653932809421575)
     p = 0.01078304771586376 + z * (0.0036955417818017974 + z * p)
     p = 0.013980877748590899 + z * (0.01139842863065648 + z * p)
@@ -137,7 +137,7 @@ def _arc_beyond(s: float, z: float) -> float:
 
 
 def asin(x: float) -> float:
-    """The arcsine, within 1.5 ulp; NaN beyond -1 .. 1."""
+    """Return the arcsine, within 1.5 ulp; NaN beyond -1 .. 1."""
     size = abs(x)
     near = size <= 0.5
     z = select(near, size * size, 0.5 * (1.0 - size))
@@ -148,7 +148,7 @@ def asin(x: float) -> float:
 
 
 def acos(x: float) -> float:
-    """The arccosine, within 1.5 ulp; NaN beyond -1 .. 1."""
+    """Return the arccosine, within 1.5 ulp; NaN beyond -1 .. 1."""
     size = abs(x)
     near = size <= 0.5
     z = select(near, size * size, 0.5 * (1.0 - size))

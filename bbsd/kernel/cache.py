@@ -20,17 +20,16 @@ CACHE_VARIABLE = "BBSD_CACHE_DIR"
 
 @cache
 def kernel_digest() -> str:
-    """What compiled code depends on beside its source: this package's text and numba's version; 16 digits."""
+    """Return a digest, 16 digits, of what all compiled code depends on: the text of this package, numba's version."""
     texts = [path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py"))]
     return sha256(b"\0".join([version("numba").encode(), *texts])).hexdigest()[:16]
 
 
 def cache_folder(name: str) -> Path:
-    """The folder of that name in the user's cache, made where it is missing, for the user only (mode 0700).
+    """Return a folder of the user's cache by its name, made where it is missing, for the user only (mode 0700).
 
-    The cache is $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache. Where it cannot be written, or
-    others could write it, one notice says so on standard error and a temporary folder takes its place, which
-    lasts as long as this process and serves its children too.
+    Where the cache cannot be written, or others could write it, one notice on standard error says so, and a temporary
+    folder takes its place, which lasts as long as this process and serves its children too.
     """
     root = cache_root()
     if not usable(root) or not usable(root / name):
@@ -45,7 +44,7 @@ def cache_folder(name: str) -> Path:
 
 
 def cache_root() -> Path:
-    """The user's cache: $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache."""
+    """Return the root of the user's cache: $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache."""
     if given := os.environ.get(CACHE_VARIABLE):
         return Path(given).absolute()
     home = os.environ.get("XDG_CACHE_HOME", "")
@@ -54,7 +53,7 @@ def cache_root() -> Path:
 
 @cache
 def usable(folder: Path) -> bool:
-    """Whether the folder, made if need be, is the user's alone to write: what lies in a cache is executed."""
+    """Say whether only the user can write to a folder, made if need be: what lies in a cache is executed."""
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         folder.mkdir(mode=0o700, exist_ok=True)

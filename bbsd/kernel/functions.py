@@ -77,32 +77,32 @@ __all__ = [
 
 
 def is_finite(x: float) -> bool:
-    """Whether x is neither an infinity nor NaN."""
+    """Say whether x is neither an infinity nor NaN."""
     return x - x == 0.0
 
 
 def clamp_index(x: float, last: int) -> int:
-    """The whole number x as an index from 0 to last: what lies beyond goes to the nearest end, NaN to 0."""
+    """Return the whole number x as an index from 0 to last: what lies beyond goes to the nearest end, NaN to 0."""
     return int(select(x > 0.0, select(x < last, x, float(last)), 0.0))
 
 
 def sign(x: float) -> float:
-    """-1, 0 or 1, with the sign of x; NaN for NaN."""
+    """Return -1, 0 or 1, with the sign of x; NaN for NaN."""
     return select(x > 0.0, 1.0, select(x < 0.0, -1.0, x))
 
 
 def degrees(x: float) -> float:
-    """Radians to degrees, within 1.5 ulp."""
+    """Convert radians to degrees, within 1.5 ulp."""
     return x * 57.29577951308232
 
 
 def radians(x: float) -> float:
-    """Degrees to radians, within 1.5 ulp."""
+    """Convert degrees to radians, within 1.5 ulp."""
     return x * 0.017453292519943295
 
 
 def hypot(x: float, y: float) -> float:
-    """sqrt(x*x + y*y), within 1.5 ulp; beyond magnitudes of 1e-145 .. 1e154 the squares are 0 or infinite."""
+    """Return sqrt(x*x + y*y), within 1.5 ulp; beyond magnitudes of 1e-145 .. 1e154 squares are 0 or infinite."""
     return sqrt(x * x + y * y)
 
 
@@ -110,35 +110,35 @@ def hypot(x: float, y: float) -> float:
 
 
 def _high_half(x: float) -> float:
-    """The upper 26 bits of a number below 2**996 (Veltkamp 1968)."""
+    """Return the upper 26 bits of a number below 2**996 (Veltkamp 1968)."""
     stretched = 134217729.0 * x  # 2**27 + 1
     return stretched - (stretched - x)
 
 
 def _product_error(a: float, b: float, product: float) -> float:
-    """What a * b misses of the exact product (Dekker 1971)."""
+    """Return the rounding error of a * b, the exact product less the rounded one (Dekker 1971)."""
     a_high, b_high = _high_half(a), _high_half(b)
     a_low, b_low = a - a_high, b - b_high
     return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
 
 
 def _remainder(dividend: float, divisor: float, quotient: float) -> float:
-    """dividend - quotient * divisor, rounded once; the dividend where the divisor is infinite."""
+    """Return dividend - quotient * divisor, rounded once; the dividend where the divisor is infinite."""
     finite = select(abs(divisor) < INFINITY, divisor, 0.0 * quotient)
     product = quotient * finite
     return (dividend - product) - _product_error(quotient, finite, product)
 
 
 def floor_divide(dividend: float, divisor: float) -> float:
-    """Python's `//` where the quotient is below 2**52; an infinity or NaN where the divisor is zero."""
+    """Divide as Python's `//` where the quotient is below 2**52; an infinity or NaN where the divisor is zero."""
     quotient = floor(divide(dividend, divisor))
     return select(_remainder(dividend, divisor, quotient) * sign(divisor) < 0.0, quotient - 1.0, quotient)
 
 
 def modulo(dividend: float, divisor: float) -> float:
-    """Python's `%`, with the sign of the divisor; NaN where the divisor is zero or the quotient above 2**52.
+    """Return Python's `%`, with the sign of the divisor; NaN where the divisor is 0 or the quotient above 2**52.
 
-    The divisor and the dividend are to be 0 or of a magnitude in 1e-280 .. 1e290.
+    The divisor and the dividend must be 0 or of a magnitude in 1e-280 .. 1e290.
     """
     quotient = floor(divide(dividend, divisor))
     rest = _remainder(dividend, divisor, select(abs(quotient) < 4503599627370496.0, quotient, NAN))
@@ -150,7 +150,7 @@ def modulo(dividend: float, divisor: float) -> float:
 
 
 def _fraction_of_exponential(x: float, shifted: float) -> float:
-    """exp(r) - 1, error 2.5e-17 of it, |r| <= 0.3466: what x leaves beside the multiple of log 2."""
+    """Return exp(r) - 1, error 2.5e-17 of it, for the rest r of x beside the multiple of log 2, |r| <= 0.3466."""
     count = shifted - SHIFT
     r = (x - count * 0.6931471805598903) - count * 5.497923018708371e-14
     p = 2.762221795554647e-07 + r * 2.5046260333848234e-08
@@ -161,12 +161,12 @@ def _fraction_of_exponential(x: float, shifted: float) -> float:
 
 
 def _power_of_two(bits: int) -> float:
-    """2**n for the n in the lowest bits, -1022 <= n <= 1023."""
+    """Return 2**n for the n in the lowest bits, -1022 <= n <= 1023."""
     return float_of((bits + 1023) << 52)
 
 
 def exp(x: float) -> float:
-    """e**x, within 1 ulp; infinite above 709.78, 0 below -745.13, as steps of 5e-324 below -708.4."""
+    """Return e**x, within 1 ulp; infinite above 709.78, 0 below -745.13, as steps of 5e-324 below -708.4."""
     bounded = minimum(maximum(x, -746.0), 710.0)
     shifted = bounded * 1.4426950408889634 + SHIFT
     bits = bits_of(shifted)
@@ -176,7 +176,7 @@ def exp(x: float) -> float:
 
 
 def tanh(x: float) -> float:
-    """The hyperbolic tangent, within 2 ulp."""
+    """Return the hyperbolic tangent, within 2 ulp."""
     doubled = 2.0 * minimum(abs(x), 22.0)
     shifted = doubled * 1.4426950408889634 + SHIFT
     scale = _power_of_two(bits_of(shifted))
@@ -196,7 +196,7 @@ FRACTION_BITS = 0x000FFFFFFFFFFFFF
 
 
 def _exponent_and_fraction(x: float) -> tuple[float, float]:
-    """n and f of x = 2**n * (1 + f), sqrt(1/2) <= 1 + f < sqrt(2), for positive finite x."""
+    """Return n and f of x = 2**n * (1 + f), sqrt(1/2) <= 1 + f < sqrt(2), for positive finite x."""
     subnormal = x < SMALLEST_NORMAL
     bits = bits_of(select(subnormal, x * 18014398509481984.0, x)) + ROOT_HALF_TO_ONE
     exponent = float_of((bits >> 52) + SHIFT_BITS) - select(subnormal, SHIFT + 1077.0, SHIFT + 1023.0)
@@ -204,7 +204,7 @@ def _exponent_and_fraction(x: float) -> tuple[float, float]:
 
 
 def _series_of_logarithm(f: float, half_square: float) -> float:
-    """log(1 + f) - f + f*f/2 through s = f / (2 + f), |s| <= 0.1716, error 1.6e-18 of the logarithm."""
+    """Return log(1 + f) - f + f*f/2 through s = f / (2 + f), |s| <= 0.1716, error 1.6e-18 of the logarithm."""
     s = f / (2.0 + f)
     z = s * s
     p = 0.18183563483572848 + z * (0.15314069458252424 + z * 0.14795786180542614)
@@ -213,13 +213,13 @@ def _series_of_logarithm(f: float, half_square: float) -> float:
 
 
 def _with_poles(x: float, logarithm: float) -> float:
-    """The logarithm where x is positive and finite, else what every logarithm has there."""
+    """Return the logarithm where x is positive and finite, else the value that every logarithm has there."""
     outside = select(x == 0.0, -INFINITY, NAN)
     return select(x < INFINITY, select(x > 0.0, logarithm, outside), x)
 
 
 def log(x: float) -> float:
-    """The natural logarithm, within 1 ulp; -inf at 0, NaN below."""
+    """Return the natural logarithm, within 1 ulp; -inf at 0, NaN below."""
     exponent, f = _exponent_and_fraction(x)
     half_square = 0.5 * f * f
     rest = half_square - (_series_of_logarithm(f, half_square) + exponent * 5.497923018708371e-14)
@@ -227,7 +227,7 @@ def log(x: float) -> float:
 
 
 def log2(x: float) -> float:
-    """The logarithm to the base 2, within 2 ulp, exact for powers of two."""
+    """Return the logarithm to the base 2, within 2 ulp, exact for powers of two."""
     exponent, f = _exponent_and_fraction(x)
     half_square = 0.5 * f * f
     fraction = f - (half_square - _series_of_logarithm(f, half_square))
@@ -235,7 +235,7 @@ def log2(x: float) -> float:
 
 
 def log10(x: float) -> float:
-    """The logarithm to the base 10, within 2 ulp."""
+    """Return the logarithm to the base 10, within 2 ulp."""
     exponent, f = _exponent_and_fraction(x)
     half_square = 0.5 * f * f
     fraction = f - (half_square - _series_of_logarithm(f, half_square))
@@ -247,7 +247,7 @@ def log10(x: float) -> float:
 
 
 def whole_power(x: float, n: int) -> float:
-    """x**n for a whole n, -1023 .. 1023, by repeated squaring, within |n| ulp; 1 / x**-n for negative n."""
+    """Return x**n for a whole n, -1023 .. 1023, by repeated squaring, within |n| ulp; 1 / x**-n for negative n."""
     count = abs(n)
     product = 1.0
     square = x
@@ -258,13 +258,13 @@ def whole_power(x: float, n: int) -> float:
 
 
 def _root_power(x: float, y: float) -> float:
-    """x**y for y = 0.5 and -0.5, rounded as `sqrt` is."""
+    """Return x**y for y = 0.5 and -0.5, rounded as `sqrt` is."""
     root = sqrt(x)
     return select(y < 0.0, divide(1.0, root), root)
 
 
 def _general_power(x: float, y: float) -> float:
-    """x**y through the logarithm; below zero with the sign of an odd y, NaN where y is not whole."""
+    """Return x**y through the logarithm; for x < 0 with the sign of an odd y, NaN where y is not whole."""
     size = exp(y * log(abs(x)))
     half = 0.5 * y
     below = select(floor(y) != y, NAN, select(floor(half) != half, -size, size))
@@ -272,7 +272,7 @@ def _general_power(x: float, y: float) -> float:
 
 
 def power(x: float, y: float) -> float:
-    """x**y: by squaring for whole |y| up to 1023, as a square root for |y| = 0.5, else as exp(y * log(x)).
+    """Return x**y: by squaring for whole |y| up to 1023, as a square root for |y| = 0.5, else as exp(y * log(x)).
 
     The last is within about 2 + 2 * |y * log(x)| ulp. NaN where x is negative and y not whole; x**0 is 1.
     """

@@ -1,7 +1,7 @@
-"""What compiled code uses for `kernel.primitives` and `kernel.memory`: few instructions, the same bits, no branch.
+"""The machine instructions of `kernel.primitives` and `kernel.memory` in compiled code: few, without branches.
 
-Told to numba by its low-level interface, types and instructions apart. An overload would compile a function of its own
-for each primitive and each combination of types, which is a third of the time that a new kernel takes.
+They are registered by numba's low-level interface, types and instructions apart. An overload would compile a function
+of its own for each primitive and each combination of types, a third of the time that a new kernel takes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     Function = Callable[..., Any]
     Typer = Callable[..., Signature]
     Emit = Callable[..., ir.Value]
-    """Emits a function's instructions, given the builder, the signature and the arguments' values."""
+    """A function that emits instructions, given the builder, the signature and the values of the arguments."""
 
 FLOAT = ir.DoubleType()
 WORD = ir.IntType(64)
@@ -36,22 +36,24 @@ WORD = ir.IntType(64)
 
 def register() -> None:
     """Make the primitives callable in compiled code."""
-    for function, found, emit in FIXED:
-        _tell(function, FIXED_TYPES[len(found.args)](found), emit)
-    _tell(primitives.word_of, _word_type, lambda _builder, _found, number: number)
-    _tell(primitives.select, _select_type, lambda builder, _found, *values: builder.select(*values))
-    _tell(primitives.minimum, _same_type, _chosen("<"))
-    _tell(primitives.maximum, _same_type, _chosen(">"))
-    _tell(primitives.maximum_where, _where_type, _maximum_where)
-    for seen, dtype in ((memory.as_words, uint64), (memory.as_integers, int64)):
-        type_callable(seen)(_view_type(dtype))
-        lower_builtin(seen, types.Array)(_view)
+    for function, sig, emit in FIXED:
+        _register_primitive(function, FIXED_TYPES[len(sig.args)](sig), emit)
+    _register_primitive(primitives.word_of, _word_type, lambda _builder, _sig, number: number)
+    _register_primitive(
+        primitives.select, _select_type, lambda builder, _sig, *values: builder.select(*values)
+    )
+    _register_primitive(primitives.minimum, _same_type, _chosen("<"))
+    _register_primitive(primitives.maximum, _same_type, _chosen(">"))
+    _register_primitive(primitives.maximum_where, _where_type, _maximum_where)
+    for view, dtype in ((memory.as_words, uint64), (memory.as_integers, int64)):
+        type_callable(view)(_view_type(dtype))
+        lower_builtin(view, types.Array)(_view)
     type_callable(memory.part)(_part_type)
     lower_builtin(memory.part, types.Array, types.Any, types.Any)(_view)
 
 
-class _Offered(types.Dispatcher):
-    """What numba takes a function of the library for: compiled already, whatever literals it is called with."""
+class _CompiledFunction(types.Dispatcher):
+    """The type of a library function: numba need not compile it again for the literals in a call."""
 
     def get_call_type(
         self, context: Context, args: Sequence[types.Type], kws: Mapping[str, types.Type]
@@ -59,19 +61,19 @@ class _Offered(types.Dispatcher):
         return super().get_call_type(context, tuple(map(types.unliteral, args)), kws)
 
 
-register_model(_Offered)(models.OpaqueModel)
+register_model(_CompiledFunction)(models.OpaqueModel)
 
 
 def offer(function: Function, compiled: Dispatcher) -> None:
-    """Make a function callable in compiled code as what it was compiled to, which the caller has to keep."""
-    infer_global(function, _Offered(compiled))
+    """Make a library function callable in compiled code by its compiled form, which the caller must keep."""
+    infer_global(function, _CompiledFunction(compiled))
 
 
-def _tell(function: Function, typed: Callable[[Context], Typer], emit: Emit) -> None:
+def _register_primitive(function: Function, typed: Callable[[Context], Typer], emit: Emit) -> None:
     def lowered(
-        _context: Context, builder: ir.IRBuilder, found: Signature, values: tuple[ir.Value, ...]
+        _context: Context, builder: ir.IRBuilder, sig: Signature, values: tuple[ir.Value, ...]
     ) -> ir.Value:
-        return emit(builder, found, *values)
+        return emit(builder, sig, *values)
 
     type_callable(function)(typed)
     lower_builtin(function, types.VarArg(types.Any))(lowered)
@@ -80,16 +82,16 @@ def _tell(function: Function, typed: Callable[[Context], Typer], emit: Emit) -> 
 # --- Types: numba casts the arguments to those of the signature
 
 
-def _unary(found: Signature) -> Callable[[Context], Typer]:
-    return lambda _context: lambda _x: found
+def _unary(sig: Signature) -> Callable[[Context], Typer]:
+    return lambda _context: lambda _x: sig
 
 
-def _binary(found: Signature) -> Callable[[Context], Typer]:
-    return lambda _context: lambda _a, _b: found
+def _binary(sig: Signature) -> Callable[[Context], Typer]:
+    return lambda _context: lambda _a, _b: sig
 
 
-def _ternary(found: Signature) -> Callable[[Context], Typer]:
-    return lambda _context: lambda _a, _b, _c: found
+def _ternary(sig: Signature) -> Callable[[Context], Typer]:
+    return lambda _context: lambda _a, _b, _c: sig
 
 
 FIXED_TYPES = {1: _unary, 2: _binary, 3: _ternary}
@@ -109,8 +111,8 @@ def _same_type(context: Context) -> Typer:
 
 def _where_type(context: Context) -> Typer:
     def typed(value: types.Type, _condition: types.Type, other: types.Type) -> Signature:
-        found = context.unify_types(types.unliteral(value), types.unliteral(other))
-        return signature(found, found, boolean, found)
+        number = context.unify_types(types.unliteral(value), types.unliteral(other))
+        return signature(number, number, boolean, number)
 
     return typed
 
@@ -135,27 +137,27 @@ def _part_type(_context: Context) -> Typer:
 
 
 def _llvm(name: str, n_arguments: int = 1) -> Emit:
-    """Emits a call of LLVM's intrinsic function of that name, all of whose arguments are floats."""
+    """Return what emits a call of an intrinsic function of LLVM, all of whose arguments are floats."""
     called = ir.FunctionType(FLOAT, [FLOAT] * n_arguments)
-    return lambda builder, _found, *values: builder.call(
+    return lambda builder, _sig, *values: builder.call(
         builder.module.declare_intrinsic(name, [FLOAT], called), values
     )
 
 
 def _chosen(comparison: str) -> Emit:
-    """Emits the choice of the second value where it compares so with the first, else of the first."""
+    """Return what emits the choice of the second value where it compares so with the first, else of the first."""
 
-    def emit(builder: ir.IRBuilder, found: Signature, a: ir.Value, b: ir.Value) -> ir.Value:
-        if found.return_type == float64:
+    def emit(builder: ir.IRBuilder, sig: Signature, a: ir.Value, b: ir.Value) -> ir.Value:
+        if sig.return_type == float64:
             return builder.select(builder.fcmp_ordered(comparison, b, a), b, a)
-        compare = builder.icmp_unsigned if found.return_type == uint64 else builder.icmp_signed
+        compare = builder.icmp_unsigned if sig.return_type == uint64 else builder.icmp_signed
         return builder.select(compare(comparison, b, a), b, a)
 
     return emit
 
 
 def _blended(builder: ir.IRBuilder, condition: ir.Value, then: ir.Value, otherwise: ir.Value) -> ir.Value:
-    """`otherwise ^ ((then ^ otherwise) & mask)`."""
+    """Emit `otherwise ^ ((then ^ otherwise) & mask)`."""
     mask, one, other = (
         builder.sext(condition, WORD),
         builder.bitcast(then, WORD),
@@ -165,51 +167,51 @@ def _blended(builder: ir.IRBuilder, condition: ir.Value, then: ir.Value, otherwi
 
 
 def _maximum_where(
-    builder: ir.IRBuilder, found: Signature, highest: ir.Value, condition: ir.Value, other: ir.Value
+    builder: ir.IRBuilder, sig: Signature, highest: ir.Value, condition: ir.Value, other: ir.Value
 ) -> ir.Value:
-    return builder.select(condition, _chosen(">")(builder, found, highest, other), highest)
+    return builder.select(condition, _chosen(">")(builder, sig, highest, other), highest)
 
 
 def _view(
-    context: BaseContext, builder: ir.IRBuilder, found: Signature, values: tuple[ir.Value, ...]
+    context: BaseContext, builder: ir.IRBuilder, sig: Signature, values: tuple[ir.Value, ...]
 ) -> ir.Value:
-    """The same memory as an array of other elements, or from a first element on so many."""
+    """Emit a view of an array: the same memory with other elements, or a number of elements from a first one on."""
     array, *part = values
-    seen = make_array(found.args[0])(context, builder, array)
-    view = make_array(found.return_type)(context, builder)
+    source = make_array(sig.args[0])(context, builder, array)
+    view = make_array(sig.return_type)(context, builder)
     for name in ("meminfo", "parent", "nitems", "itemsize", "shape", "strides"):
-        setattr(view, name, getattr(seen, name))
-    data = seen.data
+        setattr(view, name, getattr(source, name))
+    data = source.data
     if part:
         first, view.nitems = part
         view.shape = builder.insert_value(view.shape, view.nitems, 0)
         data = builder.gep(data, [first])
     view.data = builder.bitcast(data, view.data.type)
     value = view._getvalue()  # noqa: SLF001 - as numba's own documentation does it
-    return impl_ret_borrowed(context, builder, found.return_type, value)
+    return impl_ret_borrowed(context, builder, sig.return_type, value)
 
 
 FIXED: tuple[tuple[Function, Signature, Emit], ...] = (
-    (primitives.bits_of, int64(float64), lambda builder, _found, x: builder.bitcast(x, WORD)),
-    (primitives.float_of, float64(int64), lambda builder, _found, bits: builder.bitcast(bits, FLOAT)),
+    (primitives.bits_of, int64(float64), lambda builder, _sig, x: builder.bitcast(x, WORD)),
+    (primitives.float_of, float64(int64), lambda builder, _sig, bits: builder.bitcast(bits, FLOAT)),
     (
         primitives.add_where,
         float64(float64, boolean, float64),
-        lambda builder, _found, total, condition, term: builder.select(
+        lambda builder, _sig, total, condition, term: builder.select(
             condition, builder.fadd(total, term), total
         ),
     ),
     (
         primitives.blend,
         float64(boolean, float64, float64),
-        lambda builder, _found, *values: _blended(builder, *values),
+        lambda builder, _sig, *values: _blended(builder, *values),
     ),
-    (primitives.cell_of, int64(boolean), lambda builder, _found, truth: builder.zext(truth, WORD)),
+    (primitives.cell_of, int64(boolean), lambda builder, _sig, truth: builder.zext(truth, WORD)),
     (primitives.copysign, float64(float64, float64), _llvm("llvm.copysign", 2)),
-    (primitives.divide, float64(float64, float64), lambda builder, _found, *values: builder.fdiv(*values)),
+    (primitives.divide, float64(float64, float64), lambda builder, _sig, *values: builder.fdiv(*values)),
     (primitives.sqrt, float64(float64), _llvm("llvm.sqrt")),
     (primitives.round_half_even, float64(float64), _llvm("llvm.rint")),
     (primitives.floor, float64(float64), _llvm("llvm.floor")),
     (primitives.ceil, float64(float64), _llvm("llvm.ceil")),
 )
-"""Primitives of one signature."""
+"""The primitives that have one signature."""

@@ -1,4 +1,4 @@
-"""The one place that compiles: how numba is imported, where its cache lies, the options of every function."""
+"""The only module that compiles: how numba is imported, where its cache lies, the options of every function."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ CONFIG_FILE = ".numba_config.yaml"
 
 
 @contextmanager
-def _config_file_unseen() -> Iterator[None]:
-    """Hides numba's configuration file: a folder that is only visited must not decide what numba does."""
-    seen = os.path.isfile
-    vars(os.path)["isfile"] = lambda path: path != CONFIG_FILE and seen(path)
+def _config_file_hidden() -> Iterator[None]:
+    """Hide numba's configuration file: the current folder must not decide what numba does."""
+    is_file = os.path.isfile
+    vars(os.path)["isfile"] = lambda path: path != CONFIG_FILE and is_file(path)
     try:
         yield
     finally:
-        vars(os.path)["isfile"] = seen
+        vars(os.path)["isfile"] = is_file
 
 
-with _config_file_unseen():
+with _config_file_hidden():
     import numba
     from numba.core import config
     from numba.core.codegen import get_host_cpu_features
@@ -47,19 +47,19 @@ SETTINGS["reload_config"]()
 
 
 def with_widest_vectors(host: str) -> str:
-    """A processor's features such that LLVM uses the widest vectors there are.
+    """Return a processor's features, changed so that LLVM uses the widest vectors that the processor has.
 
-    For some of Intel's it prefers half of them, as wide ones once slowed the clock; a kernel is a fifth slower by that.
+    For some of Intel's processors LLVM prefers vectors of half the width, as wide ones once slowed the clock; a kernel
+    is a fifth slower by that.
     """
     return f"{host},-prefer-256-bit" if "+avx512f" in host.split(",") else host
 
 
-if SETTINGS["CPU_FEATURES"] is None:  # else it is the user's wish
+if SETTINGS["CPU_FEATURES"] is None:  # else the user has set them
     SETTINGS["CPU_FEATURES"] = with_widest_vectors(get_host_cpu_features())  # type: ignore[no-untyped-call]  # numba has no types
 
 OPTIONS: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-# A function that is called and not inlined would keep a loop over lanes scalar.
-# Nor is it called from outside, so it needs no wrappers.
+# Inlined, since a call would keep a loop over lanes scalar; never called from outside, so without wrappers.
 LIBRARY_OPTIONS: Any = {
     "error_model": "numpy",
     "forceinline": True,
@@ -69,37 +69,37 @@ LIBRARY_OPTIONS: Any = {
 
 
 def _library() -> list[Dispatcher]:
-    """Makes the library's functions callable in compiled code; whoever calls this has to keep them.
+    """Compile the library's functions, so that compiled code can call them; the caller must keep the result.
 
-    Each is kept on disk by itself, for otherwise a kernel would compile all those anew that it calls.
+    Each has its own entry in the cache on disk; otherwise a kernel would compile anew all those that it calls.
     """
     intrinsics.register()
-    found = []
+    library = []
     with _cached_in(cache_folder("compiled") / kernel_digest()):
         for function in functions.COMPILABLE + streams.COMPILABLE:
-            found.append(numba.njit(cache=True, **LIBRARY_OPTIONS)(function))
-            intrinsics.offer(function, found[-1])
-    return found
+            library.append(numba.njit(cache=True, **LIBRARY_OPTIONS)(function))
+            intrinsics.offer(function, library[-1])
+    return library
 
 
 @contextmanager
 def _cached_in(folder: Path) -> Iterator[None]:
-    """What is made to be compiled meanwhile is kept there."""
-    kept = SETTINGS["CACHE_DIR"]
+    """Let numba cache in a folder what is declared meanwhile."""
+    before = SETTINGS["CACHE_DIR"]
     SETTINGS["CACHE_DIR"] = str(folder)
     try:
         yield
     finally:
-        SETTINGS["CACHE_DIR"] = kept
+        SETTINGS["CACHE_DIR"] = before
 
 
 LIBRARY = _library()
 
 
 def jit(function: Function, **more: object) -> Function:
-    """The function, compiled when it is called, with strict floating point, without the GIL, cached on disk.
+    """Return a function that is compiled when called, with strict floating point, without the GIL, cached on disk.
 
-    numba's cache knows the text of the function's own file; its folder is named by all else that counts.
+    numba's cache depends on the text of the function's own file; the folder's name on everything else that matters.
     """
     options: Any = {**OPTIONS, **more}
     with _cached_in(cache_folder("compiled") / _stamp(function)):
@@ -108,27 +108,27 @@ def jit(function: Function, **more: object) -> Function:
 
 
 def jit_kernel(function: Function) -> Function:
-    """The same for plain loops over numbers, which compile faster: functions that make no arrays and keep none."""
+    """Return a function compiled as by `jit`, in less time; it must be plain loops that make and keep no arrays."""
     return jit(function, _nrt=False, pipeline_class=KernelCompiler)
 
 
 def _stamp(function: Callable[..., Any]) -> str:
-    """A name for all that is compiled into the function: this package, files of callees, constants."""
-    known = sha256(kernel_digest().encode())
+    """Return a digest of all that is compiled into a function: this package, files of callees, constants."""
+    digest = sha256(kernel_digest().encode())
     for file, numbers in sorted(_compiled_in(function, {}).items()):
-        known.update(f"{_text_digest(file)}{numbers}".encode())
-    return known.hexdigest()[:16]
+        digest.update(f"{_text_digest(file)}{numbers}".encode())
+    return digest.hexdigest()[:16]
 
 
-def _compiled_in(function: Callable[..., Any], found: dict[str, str]) -> dict[str, str]:
-    """By file, the numbers among the globals of the function's module and of those its callees come from."""
+def _compiled_in(function: Callable[..., Any], numbers_by_file: dict[str, str]) -> dict[str, str]:
+    """Return, by file, the numbers among the globals of the modules of a function and of its callees."""
     names = function.__globals__
     numbers = {name: value for name, value in names.items() if isinstance(value, int | float)}
-    found[function.__code__.co_filename] = repr(sorted(numbers.items()))
+    numbers_by_file[function.__code__.co_filename] = repr(sorted(numbers.items()))
     for value in list(names.values()):
-        if isinstance(value, Dispatcher) and value.py_func.__code__.co_filename not in found:
-            _compiled_in(value.py_func, found)
-    return found
+        if isinstance(value, Dispatcher) and value.py_func.__code__.co_filename not in numbers_by_file:
+            _compiled_in(value.py_func, numbers_by_file)
+    return numbers_by_file
 
 
 @cache

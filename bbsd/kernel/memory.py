@@ -1,7 +1,7 @@
-"""The working memory of a kernel: one array, and views of its parts. Plain NumPy here, a few instructions compiled.
+"""The working memory of a kernel: one array, and views of its parts.
 
-`kernel.intrinsics` gives compiled code the views; NumPy's own would be compiled anew for every kernel. Kernels do not
-allocate, so nothing in them is counted or freed.
+The functions are plain NumPy here and a few instructions in compiled code (`kernel.intrinsics`); NumPy's own views
+would be compiled anew for every kernel. Kernels do not allocate, so nothing in them is reference-counted or freed.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ if TYPE_CHECKING:
 Array = np.ndarray[tuple[int], np.dtype[Any]]
 
 CACHE_LINE = 64
-"""Bytes. A vector that lies across two lines is loaded in twice the time."""
+"""In bytes. Loading a vector that lies across two lines takes twice the time."""
 
 
 def zeros(size: int) -> NDArray[np.float64]:
-    """New memory that begins with a line of the cache, (size,). Not for compiled code."""
+    """Return new memory that begins at a cache line, (size,); not for compiled code."""
     numbers = np.zeros(size + CACHE_LINE // 8)
     address, _ = numbers.__array_interface__["data"]
     return part(numbers, -address % CACHE_LINE // 8, size)
 
 
 def part(array: Array, first: int, size: int) -> Array:
-    """A view of so many elements, (size,); compiled code does not look whether there are as many."""
+    """Return a view of `size` elements from `first` on, (size,); compiled code does not check that they exist."""
     return array[first : first + size]
 
 
 def as_words(numbers: NDArray[np.float64]) -> NDArray[np.uint64]:
-    """The same memory as keys of streams, (size,)."""
+    """Return the same memory as keys of streams, (size,)."""
     return numbers.view(np.uint64)
 
 
 def as_integers(numbers: NDArray[np.float64]) -> NDArray[np.int64]:
-    """The same memory as whole numbers, (size,)."""
+    """Return the same memory as whole numbers, (size,)."""
     return numbers.view(np.int64)

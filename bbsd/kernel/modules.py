@@ -1,6 +1,6 @@
 """Generated kernels as modules: written into the user's cache and imported, compiled or as plain Python.
 
-Nothing here imports numba before something is to be compiled.
+Numba is imported only when something is compiled.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
-    """The module that the source defines, its named functions compiled, or all of it as plain Python.
+    """Return the module that a source defines, its named functions compiled, or all of it as plain Python.
 
-    Compiled functions are plain loops over numbers and arrays that they are given, as `jit_kernel` wants. The file
-    and the module are called by `name`, an identifier, and a hash of all that decides what the compiled code does:
+    The functions to compile are plain loops over numbers and over arrays given to them, as `jit_kernel` requires. The
+    names of the file and the module are `name`, an identifier, and a hash of all that determines the compiled code:
     the same source is the same file, and numba finds what it compiled before.
     """
     digest = sha256(f"{kernel_digest()} {functions} {source}".encode()).hexdigest()
-    title = f"{name}_{digest[:32]}"
-    module_name = title if compiled else f"{title}_plain"
+    stem = f"{name}_{digest[:32]}"
+    module_name = stem if compiled else f"{stem}_plain"
     if module_name in sys.modules:
         return sys.modules[module_name]
-    path = cache_folder("kernels") / f"{title}.py"
+    path = cache_folder("kernels") / f"{stem}.py"
     _write(path, source)
     module = _import_file(path, module_name)
     if compiled:
@@ -39,7 +39,7 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
 
 
 def _write(path: Path, text: str) -> None:
-    """Writes the file whole or not at all, and not when it is there already."""
+    """Write a file whole or not at all, and not if it is there already."""
     if path.exists() and path.read_text(encoding="utf-8") == text:
         return
     with NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, suffix=".part", delete=False) as part:
@@ -48,7 +48,7 @@ def _write(path: Path, text: str) -> None:
 
 
 def _import_file(path: Path, module_name: str) -> ModuleType:
-    """Imports a file under that name, which it has before it is executed: numba's cache looks it up."""
+    """Import a file under a name, registered before the file is executed, since numba's cache looks it up."""
     spec = spec_from_file_location(module_name, path)
     if spec is None or spec.loader is None:
         raise ImportError(f"{path} is not a module", path=str(path))

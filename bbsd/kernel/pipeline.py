@@ -1,7 +1,7 @@
 """The passes of numba that a kernel needs.
 
-Its source has no closures, no `with`, no branches on constants and no array expressions, so nothing is to be looked for
-and rewritten before types are inferred; on a long kernel that takes a tenth of the time.
+The source of a kernel has no closures, no `with`, no branches on constants and no array expressions, so nothing needs
+to be found and rewritten before types are inferred; on a long kernel those passes take a tenth of the time.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ PASSES = (
 
 
 class KernelCompiler(CompilerBase):
-    """Compiles a kernel."""
+    """Numba's compiler with the passes of a kernel only."""
 
     def define_pipelines(self) -> list[PassManager]:
-        """Return the one pipeline there is."""
+        """Return the only pipeline."""
         passes = PassManager("kernel")
-        for each in PASSES:
-            passes.add_pass(each, each.__name__)
+        for compiler_pass in PASSES:
+            passes.add_pass(compiler_pass, compiler_pass.__name__)
         passes.finalize()
         return [passes]

@@ -27,89 +27,89 @@ _UNSIGNED = Struct("<Q")
 
 
 def select(condition: bool, then: Value, otherwise: Value) -> Value:
-    """`then` where the condition holds, else `otherwise`; both are evaluated, nothing branches."""
+    """Return `then` where the condition holds, else `otherwise`; both are evaluated, nothing branches."""
     return then if condition else otherwise
 
 
 def blend(condition: bool, then: float, otherwise: float) -> float:
-    """The same for floats, bit by bit: LLVM chooses between two places in memory first, and no vector can then."""
+    """Select between floats bit by bit: for `select` LLVM may choose an address first, and that cannot vectorize."""
     return then if condition else otherwise
 
 
 def minimum(a: Value, b: Value) -> Value:
-    """The smaller one; a where they do not compare."""
+    """Return the smaller of two numbers; a where they do not compare."""
     return b if b < a else a  # noqa: FURB136 - not min: this is what the hardware is told
 
 
 def maximum(a: Value, b: Value) -> Value:
-    """The greater one; a where they do not compare."""
+    """Return the greater of two numbers; a where they do not compare."""
     return b if b > a else a  # noqa: FURB136
 
 
 def add_where(total: float, condition: bool, term: float) -> float:
-    """The sum of both where the condition holds, else the total alone."""
+    """Return the sum of both where the condition holds, else the total alone."""
     return total + term if condition else total
 
 
 def maximum_where(highest: Value, condition: bool, other: Value) -> Value:
-    """The greater one where the condition holds, else the first."""
+    """Return the greater of two numbers where the condition holds, else the first."""
     return maximum(highest, other) if condition else highest
 
 
 def cell_of(truth: bool) -> int:
-    """The cell that a truth is in: 0 if false, 1 if true."""
+    """Return the cell of a truth: 0 if false, 1 if true."""
     return int(truth)
 
 
 def bits_of(x: float) -> int:
-    """The 64 bits of a binary64 number as a signed whole number."""
+    """Return the 64 bits of a binary64 number as a signed whole number."""
     bits: int = _SIGNED.unpack(_FLOAT.pack(x))[0]
     return bits
 
 
 def float_of(bits: int) -> float:
-    """The binary64 number whose bits are the lowest 64 of a whole number."""
+    """Return the binary64 number whose bits are the lowest 64 of a whole number."""
     x: float = _FLOAT.unpack(_UNSIGNED.pack(bits & MASK))[0]
     return x
 
 
 def word_of(number: int) -> int:
-    """A whole number as an unsigned 64-bit word; in compiled code the only way from int64 to uint64."""
+    """Return a whole number as an unsigned 64-bit word; compiled code has no other way from int64 to uint64."""
     return int(number) & MASK
 
 
 def copysign(magnitude: float, sign: float) -> float:
-    """The magnitude of the first with the sign bit of the second."""
+    """Return the magnitude of the first with the sign bit of the second."""
     return math.copysign(magnitude, sign)
 
 
 def divide(dividend: float, divisor: float) -> float:
-    """The quotient: an infinity where only the divisor is zero, NaN where both are."""
+    """Return the quotient: an infinity where only the divisor is zero, NaN where both are."""
     if divisor:
         return dividend / divisor
     return dividend * math.copysign(INFINITY, divisor)
 
 
 def sqrt(x: float) -> float:
-    """The square root, NaN below zero."""
+    """Return the square root, NaN below zero."""
     return math.sqrt(x) if x >= 0.0 else NAN
 
 
 def round_half_even(x: float) -> float:
-    """The nearest whole number, the even one of two; keeps the sign of zero."""
+    """Return the nearest whole number, the even one of two; keeps the sign of zero."""
     if abs(x) < WHOLE:
         return math.copysign((abs(x) + WHOLE) - WHOLE, x)
     return x
 
 
 def floor(x: float) -> float:
-    """The greatest whole number that is not above x."""
+    """Return the greatest whole number that is not above x."""
     nearest = round_half_even(x)
     return math.copysign(nearest - 1.0, x) if nearest > x else nearest
 
 
 def ceil(x: float) -> float:
-    """The least whole number that is not below x."""
+    """Return the least whole number that is not below x."""
     nearest = round_half_even(x)
     return math.copysign(nearest + 1.0, x) if nearest < x else nearest
 

@@ -45,55 +45,55 @@ UNIT = 2.0**-53
 
 
 def name_word(name: str) -> int:
-    """The word that stands for a name: a purpose, or a place in a spec. Not for compiled code."""
+    """Return the word that stands for a name: a purpose, or a place in a spec; not for compiled code."""
     return int.from_bytes(blake2b(name.encode(), digest_size=8).digest(), "little")
 
 
 def mix64(word: int) -> int:
-    """A bijection of 64-bit words: every input bit changes every output bit with probability near 1/2."""
+    """Map a 64-bit word to another, one to one: every input bit changes every output bit with probability near 1/2."""
     word = ((word ^ (word >> 30)) * MULTIPLIER_1) & MASK
     word = ((word ^ (word >> 27)) * MULTIPLIER_2) & MASK
     return word ^ (word >> 31)
 
 
 def mark(word: int) -> int:
-    """What `word` adds to a key; a loop that folds one word into many keys needs it once."""
+    """Return the mark of a word, by which it is folded into a key; a loop over many keys needs it once."""
     return mix64((word + GOLDEN) & MASK)
 
 
 def marked(key: int, mark: int) -> int:
-    """The key of the stream within the stream of `key` whose word has that mark."""
+    """Return the key of the stream within the stream of `key` whose word has that mark."""
     return mix64(key ^ mark)
 
 
 def fold(key: int, word: int) -> int:
-    """The key of the stream called `word` within the stream of `key`."""
+    """Return the key of the stream called `word` within the stream of `key`."""
     return marked(key, mark(word))
 
 
 def unit(bits: int) -> float:
-    """A number in [0, 1), a multiple of 2**-53, from 64 random bits."""
+    """Return a number in [0, 1), a multiple of 2**-53, made of 64 random bits."""
     return (bits >> 11) * UNIT
 
 
 def uniform(key: int, word: int, low: float, high: float) -> float:
-    """Uniform from low to high; high itself only where the sum is rounded to it."""
+    """Draw uniformly from low to high; high itself only where the sum is rounded to it."""
     return low + (high - low) * unit(fold(key, word))
 
 
 def integers(key: int, word: int, first: float, last: float) -> float:
-    """A whole number from first to last, both included; `first` where last < first."""
+    """Draw a whole number from first to last, both included; `first` where last < first."""
     span = maximum(last - first + 1.0, 1.0)
     return first + minimum(floor(unit(fold(key, word)) * span), span - 1.0)
 
 
 def chance(key: int, word: int, probability: float) -> bool:
-    """True with the given probability."""
+    """Return True with the given probability."""
     return unit(fold(key, word)) < probability
 
 
 def normal(key: int, word: int, mean: float, sd: float) -> float:
-    """Gaussian by Box and Muller (1958), its two uniforms from two streams of the same word."""
+    """Draw from a normal distribution by Box and Muller (1958), the two uniforms from two streams of the word."""
     bits = fold(key, word)
     radius = sqrt(-2.0 * log(1.0 - unit(bits)))
     return mean + sd * (radius * cos(2.0 * pi * unit(mix64(bits ^ GOLDEN))))
@@ -102,6 +102,6 @@ def normal(key: int, word: int, mean: float, sd: float) -> float:
 DISTRIBUTIONS: Mapping[str, Callable[..., float]] = MappingProxyType(
     {"chance": chance, "integers": integers, "normal": normal, "uniform": uniform}
 )
-"""What the language draws, by its name there: functions of (key, word, *parameters)."""
+"""The distributions of the language by their names there: functions of (key, word, *parameters)."""
 
 COMPILABLE = (mix64, mark, marked, fold, unit, uniform, integers, chance, normal)
