@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.errors import UsageError
-from bbsd.expression.graph import Graph, Kind, Level, Node, needed, rebuilt
+from bbsd.expression.graph import Graph, Level, Node, needed, rebuilt
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.writing.emission import TOP_BIT
-from bbsd.expression.graph import Kind, evaluate
+from bbsd.expression.graph import evaluate
+from bbsd.expression.kinds import Kind
 from bbsd.kernel.functions import clamp_index
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, word_of
 

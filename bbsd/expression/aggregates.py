@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from bbsd.expression.checks import has_arguments, known_whole, of_kind
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import unseen
 from bbsd.expression.tree import Call, Each, Name
 

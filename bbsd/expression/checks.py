@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 from bbsd.expression.tree import Each
 
 if TYPE_CHECKING:

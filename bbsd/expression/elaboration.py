@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors import did_you_mean
 from bbsd.expression.aggregates import aggregate
 from bbsd.expression.checks import has_arguments, known_whole, of_kind
-from bbsd.expression.graph import Kind, Node
+from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, index, name_value
 from bbsd.expression.scope import Definition, Unusable
 from bbsd.expression.tree import (
@@ -35,6 +35,7 @@ from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, PARTITIONS,
 from bbsd.kernel.streams import fold, name_word, word_of
 
 if TYPE_CHECKING:
+    from bbsd.expression.graph import Node
     from bbsd.expression.scope import Draws, Scope, Value
 
 MAX_WHOLE_POWER = 64

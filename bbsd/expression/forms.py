@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 from bbsd.expression.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
 from bbsd.expression.vocabulary import FUNCTIONS
 

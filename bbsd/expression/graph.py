@@ -8,10 +8,11 @@ carried out at once, with the functions that the kernel uses.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import Enum, IntEnum
+from enum import IntEnum
 from math import frexp, isfinite
 from typing import TYPE_CHECKING, Any, cast
 
+from bbsd.expression.kinds import Kind
 from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
 
 if TYPE_CHECKING:
@@ -20,16 +21,6 @@ if TYPE_CHECKING:
 MAX_NODES = 100_000
 MAX_WORK = 500_000
 """Nodes asked for, those that exist already counted again, with a surcharge for elements of generators."""
-
-
-class Kind(Enum):
-    """What a node's value is."""
-
-    NUMBER = "a number"
-    TRUTH = "a truth"
-    CELL = "a cell"
-    UNKNOWN = "unknown"
-    """What could not be understood; it silences mistakes that would only follow from the first."""
 
 
 class Level(IntEnum):

@@ -9,7 +9,8 @@ from typing import TypeAlias, cast
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.checks import has_arguments, of_kind
-from bbsd.expression.graph import Kind, Node, value_of
+from bbsd.expression.graph import Node, value_of
+from bbsd.expression.kinds import Kind
 from bbsd.expression.picking import pick
 from bbsd.expression.scope import (
     Deferred,

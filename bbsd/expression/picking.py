@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from bbsd.expression.graph import Graph, Kind, Node, value_of
+from bbsd.expression.graph import Graph, Node, value_of
+from bbsd.expression.kinds import Kind
 from bbsd.kernel.functions import clamp_index
 
 if TYPE_CHECKING:

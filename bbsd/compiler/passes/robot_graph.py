@@ -20,7 +20,8 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import TYPE_CHECKING, cast
 
-from bbsd.expression.graph import Graph, Kind, Level, Node, kind_drawn
+from bbsd.expression.graph import Graph, Level, Node, kind_drawn
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

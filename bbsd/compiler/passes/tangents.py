@@ -18,7 +18,8 @@ from math import isnan
 from typing import TYPE_CHECKING, cast
 
 from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
-from bbsd.expression.graph import Graph, Kind, Level, Node, needed, value_of
+from bbsd.expression.graph import Graph, Level, Node, needed, value_of
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from bbsd.language.meaning.episode import Episode

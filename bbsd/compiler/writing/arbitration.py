@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.writing.loop_fission import written
 from bbsd.compiler.writing.precedence import ATOM, COMPARISON, Text, grouped, infix
 from bbsd.compiler.writing.schedule import last, stages
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from bbsd.compiler.writing.blocks import Block

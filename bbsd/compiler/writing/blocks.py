@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.compiler.writing.precedence import ATOM, COMPARISON, Text, infix, number_text, sum_of, times
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

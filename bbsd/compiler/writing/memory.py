@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 
 
 @dataclass(slots=True)

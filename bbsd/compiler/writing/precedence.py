@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Kind, value_of
+from bbsd.expression.graph import value_of
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

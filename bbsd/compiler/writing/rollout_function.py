@@ -14,7 +14,8 @@ from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.memory import Memory
 from bbsd.compiler.writing.naming import Namer, slot_text
 from bbsd.compiler.writing.precedence import ATOM, COMPARISON, Text
-from bbsd.expression.graph import Kind, Level, Node, needed
+from bbsd.expression.graph import Level, Node, needed
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.forms import kind_by_form
-from bbsd.expression.graph import Kind, Node
+from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name, Span
 from bbsd.language.field_types import Expression
@@ -28,6 +28,7 @@ from bbsd.language.models import When
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
 
+    from bbsd.expression.graph import Node
     from bbsd.expression.scope import Path, Scope
     from bbsd.language.meaning.names import Moment, Names
     from bbsd.language.meaning.tables.table import Inputs, Table

@@ -7,18 +7,8 @@ from math import nan
 from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import (
-    LEAVES,
-    Graph,
-    Kind,
-    Level,
-    Node,
-    evaluate,
-    needed,
-    rebuilt,
-    value_of,
-    whole_nodes,
-)
+from bbsd.expression.graph import LEAVES, Graph, Level, Node, evaluate, needed, rebuilt, value_of, whole_nodes
+from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
 from bbsd.kernel import streams
 from bbsd.kernel.functions import clamp_index

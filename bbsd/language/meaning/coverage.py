@@ -6,7 +6,8 @@ from itertools import pairwise, product
 from math import inf
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Kind, Node, compute, value_of
+from bbsd.expression.graph import Graph, Node, compute, value_of
+from bbsd.expression.kinds import Kind
 from bbsd.expression.operations import COMPARISONS, INFIX
 
 if TYPE_CHECKING:

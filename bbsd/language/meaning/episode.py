@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Kind, Level, Node
+from bbsd.expression.graph import Level, Node
+from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior

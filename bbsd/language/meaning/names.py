@@ -8,7 +8,8 @@ from functools import partial
 from typing import TYPE_CHECKING, cast
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Graph, Kind, Level, Node
+from bbsd.expression.graph import Graph, Level, Node
+from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import (
     Binding,
     Definition,

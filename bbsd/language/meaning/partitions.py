@@ -7,7 +7,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Kind, Node, value_of
+from bbsd.expression.graph import Node, value_of
+from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.text import render
 from bbsd.expression.tree import Call, Name, Span

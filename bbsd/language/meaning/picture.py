@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
 from bbsd.expression.checks import of_kind
-from bbsd.expression.graph import Kind, Node
+from bbsd.expression.graph import Node
+from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import WHOLE
 from bbsd.language.field_types import Expression
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Graph, Kind, Level, Node, needed
+from bbsd.expression.graph import Graph, Level, Node, needed
+from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import WHOLE
 from bbsd.expression.repetition import values_for
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared

@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Kind, needed, whole_nodes
+from bbsd.expression.graph import needed, whole_nodes
+from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.constants import GENERATION
 
 if TYPE_CHECKING:

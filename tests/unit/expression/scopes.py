@@ -3,7 +3,8 @@
 from typing import Any
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Graph, Kind, Level, Node, evaluate
+from bbsd.expression.graph import Graph, Level, Node, evaluate
+from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import Mistake
 from bbsd.expression.parsing import parse
 from bbsd.expression.scope import Definition, Findings, PerRobot, Scope, Shared, Unusable, Value

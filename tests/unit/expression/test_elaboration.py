@@ -3,7 +3,8 @@ import math
 import pytest
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Kind, needed
+from bbsd.expression.graph import needed
+from bbsd.expression.kinds import Kind
 from bbsd.expression.parsing import parse
 from tests.unit.expression.scopes import marked, mistakes, scope, valued
 

@@ -1,7 +1,7 @@
 import pytest
 
 from bbsd.expression.forms import kind_by_form
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 from bbsd.expression.parsing import parse
 
 

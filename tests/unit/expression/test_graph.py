@@ -8,7 +8,6 @@ from bbsd.expression import graph as graphs
 from bbsd.expression.graph import (
     Graph,
     GraphTooLargeError,
-    Kind,
     Level,
     Node,
     compute,
@@ -17,6 +16,7 @@ from bbsd.expression.graph import (
     rebuilt,
     whole_nodes,
 )
+from bbsd.expression.kinds import Kind
 
 FLOATS = st.floats(allow_nan=True)
 

@@ -1,7 +1,7 @@
 import pytest
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 from bbsd.expression.parsing import parse
 from tests.unit.expression.scopes import marked, mistakes, scope, valued
 

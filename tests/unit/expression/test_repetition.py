@@ -1,6 +1,7 @@
 import pytest
 
-from bbsd.expression.graph import Graph, Kind, Level, evaluate
+from bbsd.expression.graph import Graph, Level, evaluate
+from bbsd.expression.kinds import Kind
 from bbsd.expression.repetition import values_for
 
 

@@ -4,7 +4,8 @@ import pytest
 
 from bbsd.compiler.passes.families import CircularError, Families
 from bbsd.compiler.passes.robot_graph import RobotGraph
-from bbsd.expression.graph import Graph, Kind, Level, value_of
+from bbsd.expression.graph import Graph, Level, value_of
+from bbsd.expression.kinds import Kind
 
 ROBOTS = range(3)
 

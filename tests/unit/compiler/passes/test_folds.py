@@ -5,7 +5,8 @@ import pytest
 from bbsd.compiler.passes import folds
 from bbsd.compiler.passes.families import Families
 from bbsd.compiler.passes.robot_graph import RobotGraph
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 from tests.unit.compiler.passes.test_families import shown
 from tests.unit.compiler.passes.test_pairs import ROBOTS, best, distance, graph, sums, x
 

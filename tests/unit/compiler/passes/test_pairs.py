@@ -11,7 +11,8 @@ from bbsd.compiler.passes.pairs import (
     previous_link,
     robot_of_slot,
 )
-from bbsd.expression.graph import Graph, Kind, Level
+from bbsd.expression.graph import Graph, Level
+from bbsd.expression.kinds import Kind
 
 ROBOTS = range(5)
 

@@ -1,7 +1,8 @@
 import pytest
 
 from bbsd.compiler.passes.robot_graph import RobotGraph
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 
 
 @pytest.fixture

@@ -1,5 +1,6 @@
 from bbsd.compiler.writing.blocks import Block, Blocks
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 
 
 def test_stages_are_the_team_s_and_the_robots_in_turn():

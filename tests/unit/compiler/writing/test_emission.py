@@ -10,7 +10,8 @@ from bbsd.compiler.writing.emission import Emitter
 from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.naming import Namer
 from bbsd.compiler.writing.precedence import ATOM
-from bbsd.expression.graph import Graph, Kind, Level, evaluate
+from bbsd.expression.graph import Graph, Level, evaluate
+from bbsd.expression.kinds import Kind
 from bbsd.kernel import functions
 from tests.unit.problems import episode_of, problem_of
 

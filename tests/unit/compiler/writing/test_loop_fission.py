@@ -6,7 +6,8 @@ from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.blocks import Block
 from bbsd.compiler.writing.loop_fission import LONGEST, loops
 from bbsd.compiler.writing.rollout_function import RolloutFunction
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 from tests.unit.problems import RICH, problem_of
 
 

@@ -6,7 +6,8 @@ from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.compiler.passes.robot_loops import loop_over_robots
 from bbsd.compiler.writing.rollout_function import RolloutFunction
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 from tests.unit.compiler.robots import moving
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bbsd.compiler.writing.memory import Memory
-from bbsd.expression.graph import Kind
+from bbsd.expression.kinds import Kind
 from bbsd.kernel import memory as kernel_memory
 
 LANES, ROBOTS = 4, 3

@@ -8,7 +8,8 @@ from bbsd.compiler.writing.emission import Emitter
 from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.naming import Namer
 from bbsd.compiler.writing.schedule import closing, last, stages
-from bbsd.expression.graph import Kind, Level
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 
 DECIDED = 3
 

@@ -1,0 +1,15 @@
+"""The kinds of values: numbers, truths and cells."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Kind(Enum):
+    """What a value is."""
+
+    NUMBER = "a number"
+    TRUTH = "a truth"
+    CELL = "a cell"
+    UNKNOWN = "unknown"
+    """What could not be understood; it silences mistakes that would only follow from the first."""
