@@ -13,7 +13,6 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import KEY, WHOLE
 from bbsd.expression.tree import Name, Span
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.names import alone
 from bbsd.language.meaning.partitions import (
     MAX_CELLS,
     TRUTH_CELLS,
@@ -30,7 +29,8 @@ if TYPE_CHECKING:
 
     from bbsd.expression.graph import Node
     from bbsd.expression.scope import Path, Scope
-    from bbsd.language.meaning.names import Moment, Names
+    from bbsd.language.meaning.moments import Moment
+    from bbsd.language.meaning.names import Names
     from bbsd.language.meaning.tables.table import Inputs, Table
     from bbsd.language.models import Behavior, PartitionText
 
@@ -75,7 +75,7 @@ def elaborate_behavior(
     name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]
 ) -> Module | None:
     """The meaning of a behavior at the decision; None where its inputs could not be understood."""
-    names, path, own = decision.names, ("behaviors", name), alone(decision, name)
+    names, path, own = decision.names, ("behaviors", name), decision.behavior_scope(name)
     excited = tuple(_excited(written, own, (*path, "excited"), robot) for robot in names.robots)
     actions = {
         action: _action(sets, names, own, (*path, "actions", action), kinds)

@@ -18,7 +18,8 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
-from bbsd.language.meaning.names import Moment, Names, Slot, Stored, alone, flat, moment, slot, slots_of
+from bbsd.language.meaning.moments import Moment, Sensed
+from bbsd.language.meaning.names import Names, Slot, Stored, read_slot, read_slots, scalars_by_slot
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
 from bbsd.language.meaning.picture import Picture, elaborate_picture
 
@@ -59,15 +60,15 @@ class Episode:
 
     @property
     def nodes(self) -> list[Node]:
-        """All that is said of the start and of a step, but for what actions set before it is put together."""
-        found = [*self.start.values(), *self.acted.values(), *self.after.values(), *self.definitions.values()]
-        found += [node for module in self.modules for node in module.nodes]
-        for nodes in (self.choices, *self.reward.values(), *self.expects.values()):
-            found += nodes
-        return found if self.ends is None else [*found, self.ends]
+        """The nodes of the start and of a step, without the values that actions assign, which `acted` contains."""
+        nodes = [*self.start.values(), *self.acted.values(), *self.after.values(), *self.definitions.values()]
+        nodes += [node for module in self.modules for node in module.nodes]
+        for robots in (self.choices, *self.reward.values(), *self.expects.values()):
+            nodes += robots
+        return nodes if self.ends is None else [*nodes, self.ends]
 
     def with_nodes(self, new: Callable[[Node], Node]) -> Episode:
-        """The same with another node for each of a step; what actions set stands in the acted state already."""
+        """Return the same episode with every node of its step replaced, but for the values that actions assign."""
         return replace(
             self,
             modules=tuple(module.with_nodes(new) for module in self.modules),
@@ -81,27 +82,28 @@ class Episode:
 
 
 def elaborate_episode(names: Names) -> Episode | None:
-    """Elaborate a whole spec; None where its behaviors could not be understood."""
-    first = _start(names)
-    beginning = moment(names, first, names.graph.number(0))
-    beginning.scope = replace(beginning.scope, starting=True)
+    """Return what happens in an episode of a spec; None where a behavior could not be understood.
 
-    now = _slots(first, names)
+    The order of evaluation numbers the nodes, and with that fixes the kernel's text.
+    """
+    first = _starting_values(names)
+    beginning = Moment(names, first, names.graph.number(0), starting=True)
+
+    now = _slots_read(first, names)
     decision = _decision(now, beginning, names)
     kinds = {name: values[0].kind for name, values in first.items()}
     modules = tuple(_modules(names, decision, kinds))
-    if sum(len(each.actions) for each in modules) > MAX_ACTIONS_IN_ALL:
+    if sum(len(module.actions) for module in modules) > MAX_ACTIONS_IN_ALL:
         message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
         names.findings.tell(("behaviors",), "BB038", message, KEY)
     choices = tuple(names.graph.leaf("choice", robot, Kind.CELL, Level.LANE) for robot in names.robots)
 
-    acted = _acted(now, modules, choices, names)
-    acting = moment(names, acted, names.step, sensors=decision)
-    then = _dynamics(acted, _after(acting.scope, decision), kinds, names)
+    acted = _act(now, modules, choices, names)
+    acting = Moment(names, acted, names.step, sensed=decision.sensed, before=decision.scope)
+    then = _apply_dynamics(acted, acting.scope, kinds, names)
 
-    outcome = moment(names, then, names.step)
-    outcome.scope = _after(outcome.scope, decision)
-    meant = Episode(
+    outcome = Moment(names, then, names.step, before=decision.scope)
+    episode = Episode(
         modules,
         start=_slots_of_state(first, names) | _slots_of_sensors(beginning),
         acted=_slots_of_state(acted, names),
@@ -111,44 +113,41 @@ def elaborate_episode(names: Names) -> Episode | None:
         reward=_reward(outcome),
         ends=_ends(outcome),
         partitions={
-            name: found.cells for (name, robot), found in beginning.partitions.items() if found and not robot
+            name: partition.cells
+            for (name, robot), partition in beginning.sensed.partitions.items()
+            if partition and not robot
         },
         expects=_expects(outcome, decision),
         picture=_picture(first, beginning, names),
     )
-    return meant if len(modules) == len(names.spec.behaviors) else None
-
-
-def _after(scope: Scope, decision: Moment) -> Scope:
-    """A scope in which `before(e)` is e as it was for the decision."""
-    return replace(scope, before=decision.scope)
+    return episode if len(modules) == len(names.spec.behaviors) else None
 
 
 def _modules(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Iterator[Module]:
-    """The behaviors that could be understood, up to the one with which their tables are too large together."""
+    """Yield the behaviors that could be understood, up to the one that makes all tables together too large."""
     n_cells = 0
-    for name, written in names.spec.behaviors.items():
-        found = elaborate_behavior(name, written, decision, kinds)
-        if found is not None:
-            yield found
-        n_cells += found.n_cells if found else 0
+    for name, behavior in names.spec.behaviors.items():
+        module = elaborate_behavior(name, behavior, decision, kinds)
+        if module is not None:
+            yield module
+        n_cells += module.n_cells if module else 0
         if n_cells > MAX_CELLS_IN_ALL:
             message = f"from here on, all tables together have more than {MAX_CELLS_IN_ALL:,} cells"
             names.findings.tell(("behaviors", name, "inputs"), "BB039", message, KEY)
             return
 
 
-def _start(names: Names) -> Stored:
-    """Starting values of world and state, each made when another one or the episode needs it."""
+def _starting_values(names: Names) -> Stored:
+    """Return the starting values of world and state, each evaluated when another one or the episode needs it."""
     environment = names.spec.environment
-    made: dict[tuple[str, int], Node] = {}
+    starts: dict[tuple[str, int], Node] = {}
 
     def start(name: str, robot: int) -> Node:
-        if (name, robot) not in made:
-            block, who = ("world", names.team) if name in environment.world else ("state", robot)
-            here = scope.at(("environment", block, name), who, draws=True)
-            made[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, here)
-        return made[name, robot]
+        if (name, robot) not in starts:
+            block, owner = ("world", names.team) if name in environment.world else ("state", robot)
+            here = scope.at(("environment", block, name), owner, draws=True)
+            starts[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, here)
+        return starts[name, robot]
 
     bindings: dict[str, Binding] = {
         name: Unusable("BB066", f"{name} is not known yet when values start") for name in environment.sensors
@@ -165,11 +164,12 @@ def _start(names: Names) -> Stored:
     }
 
 
-def _slots(stored: Stored, names: Names) -> Stored:
+def _slots_read(stored: Stored, names: Names) -> Stored:
+    """Return the leaves that read the slots of stored values."""
     world = names.spec.environment.world
     return {
         name: tuple(
-            slot((name, None if name in world else robot, ()), value, names.graph)
+            read_slot((name, None if name in world else robot, ()), value, names.graph)
             for robot, value in enumerate(values)
         )
         for name, values in stored.items()
@@ -177,26 +177,25 @@ def _slots(stored: Stored, names: Names) -> Stored:
 
 
 def _decision(now: Stored, beginning: Moment, names: Names) -> Moment:
-    """The snapshot: state and sensors are read from where the step before, or the start, stored them."""
-    decision = moment(names, now, names.step)
-    for name, written in names.spec.environment.sensors.items():
+    """Return the snapshot: state and sensors are read from where the step before, or the start, stored them."""
+    step, sensed = names.step, Sensed()
+    for name, sensor in names.spec.environment.sensors.items():
         for robot in names.robots if name not in names.unusable else ():
-            if is_partition(written):
-                cells = beginning.partition(name, robot)
+            if is_partition(sensor):
+                partition = beginning.partition(name, robot)
                 slot = names.graph.leaf("slot", (name, robot, ()), Kind.CELL, Level.LANE)
-                decision.partitions[name, robot] = None if cells is None else Partition(cells.cells, slot)
+                sensed.partitions[name, robot] = partition and Partition(partition.cells, slot)
             else:
-                decision.values[name, robot] = slots_of(
-                    name, robot, beginning.value(name, robot), names.graph
-                )
-    return decision
+                value = beginning.value(name, robot)
+                sensed.values[name, robot] = read_slots(name, robot, value, names.graph)
+    return Moment(names, now, step, sensed=sensed)
 
 
-def _acted(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], names: Names) -> Stored:
-    """State after the controlling actions' assignments; what is not set stays."""
+def _act(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], names: Names) -> Stored:
+    """Return state after the controlling actions' assignments; what is not set stays."""
     graph = names.graph
     acted = {name: list(values) for name, values in now.items()}
-    every_action = [sets for behavior in modules for sets in behavior.actions.values()]
+    every_action = [sets for module in modules for sets in module.actions.values()]
     for action, sets in enumerate(every_action, start=1):
         for target, values in sets.items():
             for robot, value in enumerate(values):
@@ -205,16 +204,16 @@ def _acted(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], 
     return {name: tuple(values) for name, values in acted.items()}
 
 
-def _dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Names) -> Stored:
-    """The next state and world, all at once, from what the actions left and the sensors of the snapshot."""
+def _apply_dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Names) -> Stored:
+    """Return the next state and world, all at once, from the values after the actions and the snapshot's sensors."""
     environment = names.spec.environment
     then = dict(acted)
-    for name, written in environment.dynamics.items():
+    for name, expression in environment.dynamics.items():
         path: Path = ("environment", "dynamics", name)
         if name in acted:
             robots = [names.team] if name in environment.world else names.robots
             then[name] = tuple(
-                _as(kinds[name], written, scope.at(path, robot, draws=True)) for robot in robots
+                _evaluate_as(kinds[name], expression, scope.at(path, robot, draws=True)) for robot in robots
             )
         elif name not in names.unusable:
             hint = did_you_mean(name, acted)
@@ -223,68 +222,65 @@ def _dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Nam
     return then
 
 
-def _as(kind: Kind, written: Expression, scope: Scope) -> Node:
+def _evaluate_as(kind: Kind, expression: Expression, scope: Scope) -> Node:
     if kind is Kind.UNKNOWN:
-        return elaboration.scalar(written.tree, scope)
-    return (elaboration.truth if kind is Kind.TRUTH else elaboration.number)(written.tree, scope)
+        return elaboration.scalar(expression.tree, scope)
+    return (elaboration.truth if kind is Kind.TRUTH else elaboration.number)(expression.tree, scope)
 
 
 def _definitions(outcome: Moment) -> dict[Slot, Node]:
-    """Definitions without parameters, robot by robot; the others are only looked through for mistakes."""
+    """Return definitions without parameters, robot by robot; look through the others only for mistakes."""
     names = outcome.names
-    found: dict[Slot, Node] = {}
+    nodes: dict[Slot, Node] = {}
     for name, definition in names.definitions.items():
         for robot in names.robots:
             unknown = dict.fromkeys(definition.parameters, names.graph.unknown)
-            here = replace(outcome.scope.at(definition.path, robot), local=unknown)
-            value = elaboration.value(definition.expression, here)
-            found |= {} if definition.parameters else flat(value, name, robot)
-    return found
+            scope = replace(outcome.scope.at(definition.path, robot), local=unknown)
+            value = elaboration.value(definition.expression, scope)
+            nodes |= {} if definition.parameters else scalars_by_slot(value, name, robot)
+    return nodes
 
 
 def _reward(outcome: Moment) -> dict[str, tuple[Node, ...]]:
     return {
         term: tuple(
-            elaboration.number(written.tree, outcome.scope.at(("reward", term), robot))
+            elaboration.number(expression.tree, outcome.scope.at(("reward", term), robot))
             for robot in outcome.names.robots
         )
-        for term, written in outcome.names.spec.reward.items()
+        for term, expression in outcome.names.spec.reward.items()
     }
 
 
 def _ends(outcome: Moment) -> Node | None:
-    written = outcome.names.spec.environment.ends
-    path = ("environment", "ends")
-    return (
-        None
-        if written is None
-        else elaboration.truth(written.tree, outcome.scope.at(path, outcome.names.team))
-    )
+    condition = outcome.names.spec.environment.ends
+    if condition is None:
+        return None
+    return elaboration.truth(condition.tree, outcome.scope.at(("environment", "ends"), outcome.names.team))
 
 
 def _expects(outcome: Moment, decision: Moment) -> dict[str, tuple[Node, ...]]:
-    """What behaviors expect: after the step, of what they may know, `before(e)` as it was for the decision.
+    """Return what behaviors expect after the step, of what they may know; `before(e)` is e at the decision.
 
     Elaborated last, so that the numbers of all other nodes, and with them the solver's kernel, are the same without.
     """
     names = outcome.names
-    found: dict[str, tuple[Node, ...]] = {}
-    for name, written in names.spec.behaviors.items():
-        if written.expects is not None:
-            scope = replace(alone(outcome, name), before=alone(decision, name))
+    expectations: dict[str, tuple[Node, ...]] = {}
+    for name, behavior in names.spec.behaviors.items():
+        if behavior.expects is not None:
+            scope = replace(outcome.behavior_scope(name), before=decision.behavior_scope(name))
             path = ("behaviors", name, "expects")
-            found[name] = tuple(
-                elaboration.truth(written.expects.tree, scope.at(path, robot)) for robot in names.robots
+            expectations[name] = tuple(
+                elaboration.truth(behavior.expects.tree, scope.at(path, robot)) for robot in names.robots
             )
-    return found
+    return expectations
 
 
 def _picture(first: Stored, beginning: Moment, names: Names) -> Picture | None:
-    """What is drawn, in a fork of the graph: a view changes nothing of what is computed."""
+    """Return what is drawn, in a fork of the graph: a view changes nothing of what is computed."""
     if names.spec.view is None:
         return None
-    aside = replace(names, graph=names.graph.fork())
-    return elaborate_picture(names.spec.view, _decision(_slots(first, aside), beginning, aside))
+    forked = replace(names, graph=names.graph.fork())
+    return elaborate_picture(names.spec.view, _decision(_slots_read(first, forked), beginning, forked))
 
 
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
@@ -296,14 +292,14 @@ def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
     }
 
 
-def _slots_of_sensors(sensed: Moment) -> dict[Slot, Node]:
-    names = sensed.names
-    found: dict[Slot, Node] = {}
-    for name, written in names.spec.environment.sensors.items():
+def _slots_of_sensors(moment: Moment) -> dict[Slot, Node]:
+    names = moment.names
+    nodes: dict[Slot, Node] = {}
+    for name, sensor in names.spec.environment.sensors.items():
         for robot in names.robots if name not in names.unusable else ():
-            if is_partition(written):
-                cells = sensed.partition(name, robot)
-                found |= {} if cells is None else {(name, robot, ()): cells.index}
+            if is_partition(sensor):
+                partition = moment.partition(name, robot)
+                nodes |= {} if partition is None else {(name, robot, ()): partition.index}
             else:
-                found |= flat(sensed.value(name, robot), name, robot)
-    return found
+                nodes |= scalars_by_slot(moment.value(name, robot), name, robot)
+    return nodes

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Scope, Value
     from bbsd.expression.tree import Span
     from bbsd.language.field_types import Nested
-    from bbsd.language.meaning.names import Moment
+    from bbsd.language.meaning.moments import Moment
     from bbsd.language.view import View
 
 Row = tuple[Node, ...]
