@@ -1,0 +1,84 @@
+"""What happens to the graph of a spec before its kernel is written: all passes, in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from bbsd.compiler.details import Detail
+from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
+from bbsd.compiler.passes.shared_slots import merged
+from bbsd.compiler.passes.tangents import by_tangents
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    from bbsd.expression.graph import Node
+    from bbsd.language.meaning import Meaning
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """What a rollout is written from."""
+
+    meaning: Meaning
+    to_prove: tuple[Node, ...] = ()
+    """Truths of a step without which the rollout's outcome does not count; the detailed rollout replaces it then."""
+
+
+class Pass(NamedTuple):
+    """A rewrite of programs that changes no bit of what an episode comes to."""
+
+    name: str
+    rewrite: Callable[[Program], Program]
+    details: frozenset[Detail]
+    """The rollouts that it is for."""
+    why: str
+
+
+def pipeline(most_written_out: int = MOST_WRITTEN_OUT) -> tuple[Pass, ...]:
+    """Return all passes, first to last.
+
+    A program with more robots than `most_written_out` gets loops over robots.
+    """
+    return (
+        Pass(
+            "shared slots",
+            lambda program: replace(program, meaning=merged(program.meaning)),
+            frozenset(Detail),
+            "What always holds the same value, as three robots' sensors of one tilt do, is computed and stored once.",
+        ),
+        Pass(
+            "robot loops",
+            lambda program: replace(program, meaning=rolled(program.meaning, most_written_out)),
+            frozenset({Detail.CREDIT, Detail.TERMS}),
+            "Compile time does not grow with the number of robots. A trace is not compiled, and names each robot.",
+        ),
+        Pass(
+            "tangents",
+            _with_tangents,
+            frozenset({Detail.CREDIT}),
+            "An arctangent that is only compared need not be computed. Where that is not proven, TERMS computes it.",
+        ),
+    )
+
+
+def run_passes(
+    meaning: Meaning, details: Collection[Detail], passes: Sequence[Pass] | None = None
+) -> dict[Detail, Program]:
+    """Return the program of each rollout asked for; rollouts share the passes that they begin with."""
+    programs = dict.fromkeys(details, Program(meaning))
+    for step in pipeline() if passes is None else passes:
+        rewritten: dict[int, Program] = {}
+        for detail, program in programs.items():
+            if detail in step.details:
+                if id(program) not in rewritten:
+                    rewritten[id(program)] = step.rewrite(program)
+                programs[detail] = rewritten[id(program)]
+    return programs
+
+
+def _with_tangents(program: Program) -> Program:
+    episode, to_prove = by_tangents(program.meaning.episode)
+    return Program(replace(program.meaning, episode=episode), (*program.to_prove, *to_prove))
