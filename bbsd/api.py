@@ -11,10 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from bbsd.architecture import designed_text, given_architecture, require_writable, tidied
-from bbsd.compiler import Problem, compile_meaning
-from bbsd.compiler.details import Detail
+from bbsd.compiler import Detail, Problem, compile_meaning, kernel_source
 from bbsd.compiler.problem import DEFAULT_LANES
-from bbsd.compiler.writing.source import module_source
 from bbsd.errors import Diagnosis, SpecError, UsageError
 from bbsd.evaluation import (
     Evaluation,
@@ -145,7 +143,7 @@ def check(spec: str | Path) -> tuple[Diagnosis, ...]:
 def compile(spec: Spec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
     """The source of the kernel that a spec compiles to: a rollout for the solver and one for evaluation."""
     problem = compile_meaning(load(spec, overrides=overrides).meaning)
-    return module_source(problem.meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
+    return kernel_source(problem.meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
 
 
 def evaluate(

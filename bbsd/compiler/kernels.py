@@ -13,7 +13,7 @@ import numpy as np
 
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.pipeline import pipeline, run_passes
-from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT
+from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
 from bbsd.compiler.writing.source import module_source
 from bbsd.kernel.memory import zeros
 from bbsd.kernel.modules import load_kernel
@@ -39,7 +39,7 @@ def kernel_source(
     tables: Sequence[TableShape],
     lanes: int,
     details: Sequence[Detail],
-    most_written_out: int = MOST_WRITTEN_OUT,
+    most_written_out: int = MOST_ROBOTS_WRITTEN_OUT,
 ) -> str:
     """Return the source of a module with these rollouts, `lanes` episodes side by side."""
     programs = run_passes(meaning, details, pipeline(most_written_out))
@@ -56,7 +56,7 @@ class Kernels:
     compiled: bool
     jobs: int = 1
     """Threads that share the lanes; the outcome is the same for any number."""
-    most_written_out: int = MOST_WRITTEN_OUT
+    most_written_out: int = MOST_ROBOTS_WRITTEN_OUT
     """Robots up to this number are written one after the other, more in loops."""
 
     @cached_property

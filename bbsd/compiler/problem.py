@@ -1,35 +1,29 @@
-"""The compiled problem: what the solver and the evaluation know of a spec. Arrays only from here on."""
+"""The compiled problem: what the method and the evaluation know of a spec, arrays only."""
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.details import Detail, checked_slots
-from bbsd.compiler.passes.shared_slots import share_slots
+from bbsd.compiler.details import checked_slots
+from bbsd.compiler.kernels import Kernels
 from bbsd.compiler.tables import Pool, TableShape, shape_of
 from bbsd.compiler.team import Team
-from bbsd.compiler.writing.source import module_source
-from bbsd.kernel.modules import load_kernel
 from bbsd.language.meaning.size import Size, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.compiler.team import Rollout
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.names import Slot
 
 DEFAULT_LANES = 40
 
-Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
-Keys = npt.NDArray[np.uint64]
 
 
 @dataclass(frozen=True)
@@ -82,61 +76,37 @@ class Problem:
         return size_of(self.meaning.episode.modules, self.meaning.structure)
 
     @property
-    def places(self) -> list[Slot]:
+    def checked_slots(self) -> list[Slot]:
         """Where a detailed outcome counts values that are not finite."""
         return checked_slots(self.meaning.episode)
 
     @cached_property
-    def _module(self) -> Any:  # noqa: ANN401 - a generated module
-        source = module_source(self.meaning, self.tables, self.lanes, (Detail.CREDIT, Detail.TERMS))
-        names = (Detail.CREDIT.value, Detail.TERMS.value)
-        return load_kernel(source, "rollout", names, compiled=self.compiled)
-
-    @cached_property
-    def threads(self) -> ThreadPoolExecutor:
-        """What runs the lanes where there are several jobs."""
-        return ThreadPoolExecutor(self.jobs)
-
-    @cached_property
-    def rollout(self) -> Rollout:
-        """The kernel that the life loop calls."""
-        return self._quiet(self._module.rollout)
-
-    @cached_property
-    def rollout_detailed(self) -> Rollout:
-        """The kernel that evaluation calls."""
-        return self._quiet(self._module.rollout_detailed)
-
-    @property
-    def memory(self) -> int:
-        """How many numbers a kernel works with."""
-        return cast("int", self._module.MEMORY)
-
-    def _quiet(self, function: Rollout) -> Rollout:
-        """Infinities and NaN are values in every mode; NumPy's scalars would warn of them in plain Python."""
-        if self.compiled:
-            return function
-
-        def quiet(*arguments: object) -> bool | None:
-            with np.errstate(all="ignore"):
-                return function(*arguments)
-
-        return quiet
+    def kernels(self) -> Kernels:
+        """The rollouts, printed and loaded when they are first run."""
+        return Kernels(self.meaning, self.tables, self.lanes, self.compiled, self.jobs)
 
     def assemble(self, pools: Sequence[Pool], members: Integers, generation: int) -> Team:
-        """Agents of individuals from the pools: members (n_agents, n_behaviors)."""
-        return Team(
-            self, tuple(pools), members, np.array(self.meaning.constants.vector(generation), np.float64)
-        )
+        """Return agents of individuals from the pools, in the constants of a generation.
+
+        Args:
+            pools: of each behavior, (n_individuals, n_cells).
+            members: the individual of each pool that each agent is made of, (n_agents, n_behaviors).
+            generation: counted from 1.
+        """
+        constants = np.array(self.meaning.constants.vector(generation), np.float64)
+        return Team(self.kernels, tuple(pools), members, constants)
 
 
 def compile_meaning(
     meaning: Meaning, *, lanes: int | None = None, compiled: bool = True, jobs: int = 1
 ) -> Problem:
-    """Compile a spec's meaning. As plain Python, one lane at a time is the default."""
+    """Return the problem of a spec's meaning; its kernels are printed and compiled when they are first run.
+
+    As plain Python, one lane at a time is the default.
+    """
     structure = meaning.structure
     return Problem(
-        share_slots(meaning),
+        meaning,
         tuple(
             shape_of(module, left_out=index not in (*structure.layers, *structure.candidates))
             for index, module in enumerate(meaning.episode.modules)

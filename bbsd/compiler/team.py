@@ -1,31 +1,22 @@
-"""Agents that live side by side in the lanes of a kernel."""
+"""Agents side by side in the lanes of a kernel."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
+from bbsd.compiler.details import checked_slots
 from bbsd.compiler.tables import Pool, packed_tables, unpacked_tables
 from bbsd.compiler.writing.arbitration import ACTION_BITS
-from bbsd.kernel.memory import zeros
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from bbsd.compiler.problem import Problem
-
-    Rollout = Callable[..., bool | None]
-    """Lives lanes; whether a comparison was uncertain, so that nothing counts."""
+    from bbsd.compiler.kernels import Kernels, Rollout
 
 NEVER = -(1 << 40)
 """The priority of a behavior that is not in the structure."""
-
-WORTH_A_THREAD = 100_000
-"""Robot-steps that a thread must have to do: about half a millisecond."""
 
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -63,86 +54,75 @@ class DetailedOutcome:
 
 
 class Team:
-    """Agents ready to live: their tables as the kernel reads them.
+    """Agents ready for episodes: their tables as the kernel reads them.
 
     Lanes refer to individuals, they do not copy them.
     """
 
     def __init__(
-        self, problem: Problem, pools: tuple[Pool, ...], members: Integers, constants: Floats
+        self, kernels: Kernels, pools: tuple[Pool, ...], members: Integers, constants: Floats
     ) -> None:
-        self.problem = problem
+        self.kernels = kernels
         self.size = len(members)
-        padded = -(-self.size // problem.lanes) * problem.lanes
-        self._individuals = np.zeros((problem.n_behaviors, padded), np.int64)
+        self._n_behaviors = len(kernels.tables)
+        padded = -(-self.size // kernels.lanes) * kernels.lanes
+        self._individuals = np.zeros((self._n_behaviors, padded), np.int64)
         self._individuals[:, : self.size] = members.T
-        self._packed_tables = packed_tables(problem.tables, pools)
-        self._cells, self._table_offsets = unpacked_tables(problem.tables, pools)
+        self._packed_tables = packed_tables(kernels.tables, pools)
+        self._cells, self._table_offsets = unpacked_tables(kernels.tables, pools)
         self._constants = constants
         self._keys = np.zeros(padded, np.uint64)
-        self._priorities = np.full((problem.n_behaviors, padded), NEVER, np.int64)
-        actions = [0, *np.cumsum([table.n_actions for table in problem.tables])[:-1]]
+        self._priorities = np.full((self._n_behaviors, padded), NEVER, np.int64)
+        actions = [0, *np.cumsum([table.n_actions for table in kernels.tables])[:-1]]
         self._first_actions = np.array(actions, np.int64)
         self._uncertain = False  # it comes from what a spec says, so it is seldom one episode alone
 
     def episode(self, keys: Keys, structures: Integers) -> Outcome:
-        """Live one episode: keys (n_agents,) name its streams, structures (n_agents, n_layers) order the behaviors."""
+        """Run one episode of each agent.
+
+        Args:
+            keys: name each episode's random streams, (n_agents,).
+            structures: order the behaviors, lowest layer first, (n_agents, n_layers).
+        """
         if not self._uncertain:
-            returns, credit = self._outputs(1)[0], self._outputs(self.problem.n_behaviors + 1)
+            returns, credit = self._outputs(1)[0], self._outputs(self._n_behaviors + 1)
             inputs = self._inputs(keys, structures)
-            self._uncertain = self._live(self.problem.rollout, *inputs, returns, credit)
+            self._uncertain = self._run(self.kernels.rollout, *inputs, returns, credit)
         if self._uncertain:
             detailed = self.detailed_episode(keys, structures)
             return Outcome(detailed.returns, detailed.credit)
         return Outcome(returns[: self.size], credit[:, : self.size].T)
 
     def detailed_episode(self, keys: Keys, structures: Integers) -> DetailedOutcome:
-        """The same episode with everything that an evaluation reports."""
+        """Run the same episode and return everything that an evaluation reports."""
         arrays = self._detailed_outputs()
-        self._live(self.problem.rollout_detailed, *self._inputs(keys, structures), *arrays)
+        self._run(self.kernels.rollout_detailed, *self._inputs(keys, structures), *arrays)
         return DetailedOutcome(*(array.T[: self.size] for array in arrays))
 
-    def traced_episode(
-        self, rollout: Rollout, memory: int, key: int, structure: Integers, record: Floats
-    ) -> int:
-        """The first agent's episode by a rollout for one lane that notes every step into record; the steps taken.
+    def traced_episode(self, key: int, structure: Integers, record: Floats) -> int:
+        """Run the first agent's episode, record every step, and return the number of steps taken.
 
-        It works with so many numbers of memory.
+        Args:
+            key: names the episode's random streams.
+            structure: lowest layer first, (n_layers,).
+            record: (n_steps, n_columns) as in `compiler.details.traced_columns`, filled.
         """
         keys, arrays = np.array([key], np.uint64), self._detailed_outputs()
         *_, steps_taken, _not_finite, _expectations_met = arrays
         inputs = self._inputs(np.resize(keys, self.size), np.resize(structure, (self.size, len(structure))))
-        with np.errstate(all="ignore"):
-            rollout(0, 1, zeros(memory), *inputs, *arrays, record)
+        self.kernels.run_traced(*inputs, *arrays, record)
         return int(steps_taken[0])
 
     def _detailed_outputs(self) -> list[Floats]:
-        """Zeros for what a detailed rollout writes, in the order of its arguments."""
-        episode, who = self.problem.meaning.episode, self.problem.n_behaviors + 1
+        """Return zeros for what a detailed rollout writes, in the order of its arguments."""
+        episode, who = self.kernels.meaning.episode, self._n_behaviors + 1
         lanes, rows = (self._keys.size,), (who, len(episode.reward), who)
         shapes = [lanes, *((n, *lanes) for n in rows), lanes]
-        shapes += [(len(self.problem.places), *lanes), (len(episode.expects), *lanes)]
+        shapes += [(len(checked_slots(episode)), *lanes), (len(episode.expects), *lanes)]
         return [np.zeros(shape) for shape in shapes]
 
-    def _live(self, rollout: Rollout, *arrays: object) -> bool:
-        """Run all lanes, in several threads where that is worth it: a kernel does not hold the interpreter's lock.
-
-        Return whether a comparison was uncertain, so that nothing that was written counts.
-        """
-        spans, memory = self._spans(), self.problem.memory
-        if len(spans) == 1:
-            return bool(rollout(*spans[0], zeros(memory), *arrays))
-        uncertain = self.problem.threads.map(lambda span: rollout(*span, zeros(memory), *arrays), spans)
-        return any(list(uncertain))
-
-    def _spans(self) -> list[tuple[int, int]]:
-        """Which lanes each thread runs, whole batches of them."""
-        environment, lanes = self.problem.meaning.spec.environment, self.problem.lanes
-        batches = self._keys.size // lanes
-        worth = self._keys.size * environment.steps * environment.robots // WORTH_A_THREAD
-        parts = max(1, min(self.problem.jobs, batches, worth))
-        ends = [batches * part // parts * lanes for part in range(parts + 1)]
-        return list(pairwise(ends))
+    def _run(self, rollout: Rollout, *arrays: object) -> bool:
+        return self.kernels.run(rollout, self._keys.size, *arrays)
 
     def _outputs(self, rows: int) -> Floats:
         return np.zeros((rows, self._keys.size))

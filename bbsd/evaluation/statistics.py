@@ -151,7 +151,7 @@ def _named(
     share = {name: float(value) / (steps_taken * robots) for name, value in zip(who, control, strict=True)}
     counts = {
         slot_text(slot, robots): int(value)
-        for slot, value in zip(problem.places, not_finite, strict=True)
+        for slot, value in zip(problem.checked_slots, not_finite, strict=True)
         if value
     }
     in_control = dict(zip(who, control, strict=True))

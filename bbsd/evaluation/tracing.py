@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.details import Detail, traced_columns
+from bbsd.compiler.details import traced_columns
 from bbsd.compiler.writing.naming import slot_text
-from bbsd.compiler.writing.source import module_source
 from bbsd.evaluation.scene import Scene, scene, starting_values
-from bbsd.kernel.modules import load_kernel
 from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
@@ -86,15 +84,11 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     """Live one episode as plain Python and note everything."""
     meaning, steps = problem.meaning, problem.meaning.spec.environment.steps
     columns = traced_columns(meaning)
-    source = module_source(meaning, problem.tables, 1, (Detail.TRACE,))
-    kernel = load_kernel(source, "trace", (), compiled=False)
     record = np.full((steps, len(columns)), np.nan)
     pools = tuple(table[None] for table in architecture.tables)
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
-    steps_taken = team.traced_episode(
-        kernel.rollout_traced, kernel.MEMORY, key, architecture.structure, record
-    )
+    steps_taken = team.traced_episode(key, architecture.structure, record)
     lived = _read(problem, columns, record[:steps_taken])
     return replace(lived, scene=_scene(lived, problem.meaning, key, generation))
 

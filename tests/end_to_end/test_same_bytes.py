@@ -11,7 +11,7 @@ import pytest
 import bbsd
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
-from bbsd.compiler.writing.source import module_source
+from bbsd.compiler.kernels import kernel_source
 from bbsd.errors import SpecError
 
 TOP = Path(__file__).parents[2]
@@ -91,7 +91,7 @@ def sources_of(path: Path, *overrides: str) -> list[tuple[Detail, str]]:
         problem = compile_meaning(bbsd.load(path, overrides=overrides).meaning)
     except SpecError:
         return []
-    return [(detail, module_source(problem.meaning, problem.tables, LANES, (detail,))) for detail in Detail]
+    return [(detail, kernel_source(problem.meaning, problem.tables, LANES, (detail,))) for detail in Detail]
 
 
 def tree_of(source: str) -> str:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.compiler.details import Detail
-from bbsd.compiler.passes.robot_loops import MOST_WRITTEN_OUT, rolled
-from bbsd.compiler.passes.shared_slots import merged
-from bbsd.compiler.passes.tangents import by_tangents
+from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
+from bbsd.compiler.passes.shared_slots import share_slots
+from bbsd.compiler.passes.tangents import compare_tangents
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from bbsd.expression.graph import Node
     from bbsd.language.meaning import Meaning
@@ -37,7 +36,7 @@ class Pass(NamedTuple):
     why: str
 
 
-def pipeline(most_written_out: int = MOST_WRITTEN_OUT) -> tuple[Pass, ...]:
+def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...]:
     """Return all passes, first to last.
 
     A program with more robots than `most_written_out` gets loops over robots.
@@ -45,13 +44,13 @@ def pipeline(most_written_out: int = MOST_WRITTEN_OUT) -> tuple[Pass, ...]:
     return (
         Pass(
             "shared slots",
-            lambda program: replace(program, meaning=merged(program.meaning)),
+            lambda program: replace(program, meaning=share_slots(program.meaning)),
             frozenset(Detail),
             "What always holds the same value, as three robots' sensors of one tilt do, is computed and stored once.",
         ),
         Pass(
             "robot loops",
-            lambda program: replace(program, meaning=rolled(program.meaning, most_written_out)),
+            lambda program: replace(program, meaning=loop_over_robots(program.meaning, most_written_out)),
             frozenset({Detail.CREDIT, Detail.TERMS}),
             "Compile time does not grow with the number of robots. A trace is not compiled, and names each robot.",
         ),
@@ -80,5 +79,5 @@ def run_passes(
 
 
 def _with_tangents(program: Program) -> Program:
-    episode, to_prove = by_tangents(program.meaning.episode)
+    episode, to_prove = compare_tangents(program.meaning.episode)
     return Program(replace(program.meaning, episode=episode), (*program.to_prove, *to_prove))

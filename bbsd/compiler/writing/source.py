@@ -6,12 +6,9 @@ vectorizes. A lane is an agent in an episode. `docs/rollout.md` states the funct
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import Detail
-from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
-from bbsd.compiler.passes.tangents import compare_tangents
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.loop_fission import written
 from bbsd.compiler.writing.naming import slot_text
@@ -22,11 +19,11 @@ from bbsd.kernel import functions, memory, streams
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
+    from bbsd.compiler.passes.pipeline import Program
     from bbsd.compiler.tables import TableShape
     from bbsd.compiler.writing.emission import Emitter
-    from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.names import Slot
 
 ARGUMENTS = (
@@ -35,27 +32,16 @@ ARGUMENTS = (
 )  # fmt: skip
 
 
-def module_source(
-    meaning: Meaning,
-    shapes: Sequence[TableShape],
-    lanes: int,
-    details: Sequence[Detail],
-    most_written_out: int = MOST_ROBOTS_WRITTEN_OUT,
-) -> str:
-    """The source of a module with a rollout for each detail asked for, and how much memory they want.
-
-    More robots than are to be written out stand in loops; those of a trace never do.
-    """
+def module_source(programs: Mapping[Detail, Program], shapes: Sequence[TableShape], lanes: int) -> str:
+    """Return the source of a module with the rollouts of these programs, and how much memory they need."""
     texts, used, tables, memory_size = [], set(), dict[str, str](), 0
-    short = loop_over_robots(meaning, most_written_out)
-    for detail in details:
-        meant = meaning if detail is Detail.TRACE else short
-        episode, proven = compare_tangents(meant.episode) if detail is Detail.CREDIT else (meant.episode, ())
-        function = RolloutFunction(replace(meant, episode=episode), shapes, lanes, detail, proven, tables)
+    for detail, program in programs.items():
+        function = RolloutFunction(program.meaning, shapes, lanes, detail, program.to_prove, tables)
         texts.append(f"\n{rollout_source(function)}")
         used |= function.used
         memory_size = max(memory_size, function.size)
-    title = f'"""Episodes of {meaning.spec.name!r}, {lanes} at a time. Written by bbsd {__version__} from the spec."""'
+    name = next(iter(programs.values())).meaning.spec.name
+    title = f'"""Episodes of {name!r}, {lanes} at a time. Written by bbsd {__version__} from the spec."""'
     imports = [
         *(["import numpy as np"] if any("np." in text for text in (*tables, *texts)) else []),
         *_imports("bbsd.kernel.functions", sorted(used & vars(functions).keys())),

@@ -6,8 +6,7 @@ import numpy as np
 
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
-from bbsd.compiler.writing.source import module_source
-from bbsd.kernel.modules import load_kernel
+from bbsd.compiler.kernels import kernel_source
 from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from bbsd.solver.random_agents import random_agents
@@ -51,16 +50,13 @@ def moving(*, robots=4, lanes=1, compiled=False, state=(), left=(), right=(), re
 
 
 def source_with(problem, written_out, details=DETAILS):
-    return module_source(problem.meaning, problem.tables, problem.lanes, details, written_out)
+    return kernel_source(problem.meaning, problem.tables, problem.lanes, details, written_out)
 
 
 def with_loops(problem, written_out=1):
     """The same problem with a kernel that writes at most so many robots out."""
     other = replace(problem)
-    names = tuple(detail.value for detail in DETAILS)
-    other.__dict__["_module"] = load_kernel(
-        source_with(problem, written_out), "rollout", names, compiled=problem.compiled
-    )
+    other.__dict__["kernels"] = replace(problem.kernels, most_written_out=written_out)
     return other
 
 

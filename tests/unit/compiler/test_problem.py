@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bbsd.compiler.details import Detail
-from bbsd.compiler.writing.source import module_source
+from bbsd.compiler.kernels import kernel_source
 from bbsd.evaluation import trace
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import shipped
@@ -82,14 +82,14 @@ def test_constants_of_the_generation_reach_the_kernel_as_arguments(rich_compiled
     early, late = (simply_lived(rich_compiled, generation) for generation in (29, 30))
     np.testing.assert_array_equal(early.returns, one_by_one.returns)
     assert (late.returns != early.returns).any()
-    assert len(rich_compiled.rollout.signatures) == 1
+    assert len(rich_compiled.kernels.rollout.signatures) == 1
 
 
 def test_constants_that_a_seed_draws_are_no_other_kernel():
     sources = []
     for seed in (1, 2):
         problem = problem_of(shipped("abstract"), seed=seed)
-        sources.append(module_source(problem.meaning, problem.tables, 40, (Detail.CREDIT,)))
+        sources.append(kernel_source(problem.meaning, problem.tables, 40, (Detail.CREDIT,)))
         assert problem.meaning.constants.vector(1) != problem_of(
             shipped("abstract")
         ).meaning.constants.vector(1)

@@ -2,9 +2,9 @@ import numpy as np
 
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.details import Detail
+from bbsd.compiler.kernels import kernel_source
 from bbsd.compiler.passes.shared_slots import share_slots
 from bbsd.compiler.writing.rollout_function import RolloutFunction
-from bbsd.compiler.writing.source import module_source
 from tests.unit.architecture.designs import meaning_of, shipped
 from tests.unit.problems import RICH, lived, problem_of
 
@@ -27,7 +27,7 @@ reward: {{earned: seen}}
 def kept_slots(text):
     """The slots that a rollout keeps from step to step."""
     problem = problem_of(text)
-    return RolloutFunction(problem.meaning, problem.tables, 1, Detail.CREDIT).slots
+    return RolloutFunction(share_slots(problem.meaning), problem.tables, 1, Detail.CREDIT).slots
 
 
 def test_what_all_robots_sense_alike_is_kept_once():
@@ -65,7 +65,7 @@ def test_nothing_to_merge_leaves_the_meaning_as_it_is():
 
 def test_lifting_s_tilt_is_computed_once():
     problem = problem_of(shipped("object_lifting"))
-    source = module_source(problem.meaning, problem.tables, 1, (Detail.TERMS,))
+    source = kernel_source(problem.meaning, problem.tables, 1, (Detail.TERMS,))
     assert source.count("atan(") == 1 + 1  # at the start, and in a step
 
 

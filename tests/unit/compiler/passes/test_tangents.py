@@ -8,8 +8,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from bbsd.compiler.details import Detail
+from bbsd.compiler.kernels import kernel_source
 from bbsd.compiler.passes.tangents import compare_tangents
-from bbsd.compiler.writing.source import module_source
 from bbsd.expression.graph import evaluate
 from bbsd.kernel import functions
 from bbsd.solver.random_agents import random_agents
@@ -53,7 +53,7 @@ def swaying(
 
 
 def source_of(problem, detail=Detail.CREDIT):
-    return module_source(problem.meaning, problem.tables, problem.lanes, (detail,))
+    return kernel_source(problem.meaning, problem.tables, problem.lanes, (detail,))
 
 
 def arctangents_of_a_step(problem):

@@ -1,7 +1,7 @@
 import pytest
 
 from bbsd.compiler.details import Detail
-from bbsd.compiler.writing.source import module_source
+from bbsd.compiler.kernels import kernel_source
 from tests.unit.architecture.designs import shipped
 from tests.unit.problems import RICH, lived, problem_of
 
@@ -44,7 +44,7 @@ MANY_GUARDS = GUARD.replace("robots: 2", "robots: 8")
 
 
 def source_of(problem, *details, lanes=8):
-    return module_source(problem.meaning, problem.tables, lanes, details)
+    return kernel_source(problem.meaning, problem.tables, lanes, details)
 
 
 def without_title(source):

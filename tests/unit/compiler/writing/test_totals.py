@@ -117,7 +117,9 @@ def test_steps_in_which_a_value_is_not_finite_are_counted_by_its_place():
     reward: {each: 1}
     """
     problem = problem_of(text)
-    counted = dict(zip(problem.places, episode_of(problem, [[0]], [0]).not_finite[0].tolist(), strict=True))
+    counted = dict(
+        zip(problem.checked_slots, episode_of(problem, [[0]], [0]).not_finite[0].tolist(), strict=True)
+    )
     assert counted == {
         ("w", None, ()): 1,
         ("x", 0, ()): 0,

@@ -4,7 +4,7 @@ import pytest
 
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
-from bbsd.compiler.writing.source import module_source
+from bbsd.compiler.kernels import kernel_source
 from bbsd.expression.graph import Node, needed
 from bbsd.language.loading import load
 from bbsd.language.meaning.picture import Picture
@@ -67,7 +67,7 @@ def test_a_view_changes_no_byte_of_a_kernel(world: str) -> None:
     texts = []
     for overrides in (["view=null"], ["view.marks=null", "view.heading=(step + 1) / 7"]):
         problem = compile_meaning(load(source, overrides=overrides).meaning)
-        texts.append(module_source(problem.meaning, problem.tables, 8, (Detail.CREDIT, Detail.TRACE)))
+        texts.append(kernel_source(problem.meaning, problem.tables, 8, (Detail.CREDIT, Detail.TRACE)))
     assert texts[0] == texts[1]
 
 
