@@ -1,4 +1,4 @@
-"""The command line. Data goes to standard output, all else to standard error; imports are made late."""
+"""The command line. Results go to standard output, all else to standard error; heavy modules are imported late."""
 
 from bbsd.cli.app import main
 

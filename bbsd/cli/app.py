@@ -1,4 +1,4 @@
-"""The commands, and what becomes of the errors that a user can mend."""
+"""The list of commands, and what happens to errors that a user can correct."""
 
 import atexit
 import gc
@@ -21,8 +21,8 @@ from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
 from bbsd.version import __version__
 
-SELDOM = 100_000
-"""Objects made between two collections: nearly all that a command makes lives as long as it does, or dies at once."""
+GC_THRESHOLD = 100_000
+"""New objects between two garbage collections; a command's objects live as long as it does, or die at once."""
 
 app = typer.Typer(
     name="bbsd",
@@ -56,15 +56,15 @@ def _options(
         typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
     ] = False,
 ) -> None:
-    """Design behavior-based agents from a spec: what it gives is kept, what it leaves open is designed."""
+    """Design behavior-based agents from a spec: what the spec gives is kept, what it leaves open is designed."""
 
 
 def main() -> None:
-    """Run the command line; leave with 0, 1 for a "no", 2 for a mistake of the user's, 130 if interrupted."""
-    gc.set_threshold(SELDOM)
-    atexit.register(gc.freeze)  # to look through all there is before the end takes a tenth of a design's time
+    """Run the command line; exit with 0, 1 for the answer no, 2 for a mistake of the user, 130 if interrupted."""
+    gc.set_threshold(GC_THRESHOLD)
+    atexit.register(gc.freeze)  # Python's last collection would take a tenth of a design's time
     try:
         never_fail_to_encode(sys.stdout, sys.stderr)
         app(prog_name="bbsd")
-    except Exception as error:  # noqa: BLE001 - raised again unless it is a user's mistake
+    except Exception as error:  # noqa: BLE001 - raised again unless the user can correct it
         sys.exit(show_mistake(error))

@@ -17,7 +17,7 @@ from bbsd.report.plain import json_text
 
 
 class MistakeFormat(StrEnum):
-    """How mistakes are printed: for people, for programs, beside a pull request's lines, for code scanning."""
+    """How mistakes are printed: for people, for programs, beside the lines of a pull request, for code scanning."""
 
     TEXT = "text"
     JSON = "json"
@@ -29,21 +29,25 @@ def check(
     specs: Annotated[
         list[Path] | None,
         typer.Argument(
-            metavar="SPEC...", help="Specs, YAML files.", show_default=False, autocompletion=spec_files
+            metavar="SPEC...", help="Specs, as YAML files.", show_default=False, autocompletion=spec_files
         ),
     ] = None,
-    form: Annotated[MistakeFormat, typer.Option("--format", help="How to print it.")] = MistakeFormat.TEXT,
+    form: Annotated[
+        MistakeFormat, typer.Option("--format", help="Format of the output.")
+    ] = MistakeFormat.TEXT,
     code: Annotated[
         str | None,
-        typer.Option("--describe", metavar="CODE", help="Describe a kind of mistake, such as BB006."),
+        typer.Option(
+            "--describe", metavar="CODE", help="Describe a kind of mistake, such as BB006, and exit."
+        ),
     ] = None,
 ) -> None:
-    """Say all that is wrong with specs.
+    """Report all mistakes in specs, each at its line and column.
 
-    Leaves with 2 if anything is.
+    Exits with code 2 if there are any.
     """
     if code is not None:
-        show(_described(code))
+        show(_description(code))
     elif specs:
         _check(specs, form)
     else:
@@ -51,12 +55,12 @@ def check(
 
 
 def _check(specs: list[Path], form: MistakeFormat) -> None:
-    found = [(spec, *_checked(spec)) for spec in specs]
-    errors = [error for _, _, error in found if error]
+    results = [(spec, *_size_or_error(spec)) for spec in specs]
+    errors = [error for _, _, error in results if error]
     if form is MistakeFormat.TEXT:
-        show("\n".join(_verdict(*each) for each in found))
+        show("\n".join(_verdict(*result) for result in results))
     else:
-        show(_machine_text([each for error in errors for each in error.diagnoses], form))
+        show(_machine_text([diagnosis for error in errors for diagnosis in error.diagnoses], form))
     if errors:
         raise typer.Exit(MISTAKE)
 
@@ -70,8 +74,8 @@ def _machine_text(diagnoses: Sequence[Diagnosis], form: MistakeFormat) -> str:
     return json_text(sarif_log(diagnoses) if form is MistakeFormat.SARIF else render_json(diagnoses))
 
 
-def _checked(spec: Path) -> tuple[str, SpecError | None]:
-    """Return how large the spec is, or what is wrong with it."""
+def _size_or_error(spec: Path) -> tuple[str, SpecError | None]:
+    """Return the size of a spec in words and None, or "" and its mistakes."""
     from bbsd.language.loading import load
     from bbsd.report.size import size_text
     from bbsd.text import Source
@@ -89,7 +93,7 @@ def _verdict(spec: Path, size: str, error: SpecError | None) -> str:
     return f"{diagnoses}\n\n{count(len(error.diagnoses), 'mistake')} in {spec}"
 
 
-def _described(code: str) -> str:
+def _description(code: str) -> str:
     try:
         kind = describe(code)
     except KeyError:
@@ -97,8 +101,8 @@ def _described(code: str) -> str:
     parts = [
         f"{kind.code}: {kind.title}",
         kind.explanation,
-        f"Such as:\n\n{_indented(kind.example)}",
-        f"Instead:\n\n{_indented(kind.mend)}",
+        f"Example:\n\n{_indented(kind.example)}",
+        f"Corrected:\n\n{_indented(kind.mend)}",
     ]
     return "\n\n".join(parts)
 

@@ -6,5 +6,5 @@ from bbsd.cli.output import show
 
 
 def compile_(spec: SpecFile, lanes: Lanes = 40, overrides: Overrides = None) -> None:
-    """Print the kernel that a spec compiles to."""
+    """Print the kernel that a spec is compiled to, as Python source."""
     show(bbsd.compile(spec, lanes=lanes, overrides=overrides or ()))

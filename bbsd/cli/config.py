@@ -7,7 +7,7 @@ from bbsd.cli.output import show
 def config(spec: SpecFile, overrides: Overrides = None) -> None:
     """Print a spec with all defaults filled in.
 
-    Comments say where each value comes from: a line of the file, a default, or --set.
+    Comments say where each value comes from: a line of a file, a default, or --set.
     """
     from bbsd.language.loading import load
     from bbsd.report.configuration import configuration_text

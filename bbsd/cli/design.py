@@ -24,50 +24,52 @@ if TYPE_CHECKING:
 INTERRUPTED = 130
 CURVES = "curves.png"
 DRAWING = 0.5
-"""Seconds in which matplotlib is imported and draws the curves, about."""
+"""Approximate seconds to import matplotlib and draw the curves."""
 
 
 def design(
     spec: SpecFile,
     seed: Seed = 0,
-    runs: Annotated[int, typer.Option(metavar="N", min=1, help="Runs; the best design of all is kept.")] = 1,
+    runs: Annotated[
+        int, typer.Option(metavar="N", min=1, help="Independent runs; the best of their designs is kept.")
+    ] = 1,
     out: Annotated[
         Path | None,
         typer.Option(
-            metavar="DIR", help="The folder to write, new or empty.", show_default="runs/SPEC-seedN"
+            metavar="DIR", help="Folder for the results, new or empty.", show_default="runs/SPEC-seedN"
         ),
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue a design that was stopped.")] = False,
     lanes: Lanes = 40,
     jobs: Annotated[
         int,
         typer.Option(
             metavar="N",
             min=1,
-            help="Processes for several runs, threads for the rest; the result is the same.",
+            help="Parallel jobs: processes for several runs, threads within a run; affects only the speed.",
         ),
     ] = 1,
     overrides: Overrides = None,
     plot: Annotated[
-        bool, typer.Option("--plot", help="Also draw the curves over the generations: curves.png.")
+        bool, typer.Option("--plot", help="Also draw fitness and diversity over the generations: curves.png.")
     ] = False,
     as_json: AsJson = False,
     dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Only say what the design would cost; write nothing.")
+        bool, typer.Option("--dry-run", help="Only estimate what the design would cost; write nothing.")
     ] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing of the progress.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show no progress.")] = False,
 ) -> None:
     """Fill the holes of a spec.
 
-    Evolves the behaviors, learns the structure, and writes the spec with both in it into a run's folder,
-    beside the metrics of each generation and the state from which a stopped run goes on.
+    Evolves the behaviors, learns the structure, and writes a folder with the designed spec, the metrics of
+    each generation, and the state from which --resume continues.
     """
     from bbsd.language.loading import load
     from bbsd.text import Source
 
     if plot:
         require_figure(Path(CURVES))
-    # Mistakes are told before anything heavy is imported, and workers import it at the same time as this process.
+    # Mistakes are shown before anything heavy is imported, and workers import it at the same time as this process.
     loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides or ())
     with _workers(0 if dry_run or resume else min(runs, jobs) - 1) as ready:
         from bbsd import api
@@ -81,9 +83,9 @@ def design(
         console = error_console()
 
         def leave(stopped: api.Interrupted) -> None:
-            """End the process in the middle of what it does: what was kept is whole."""
+            """End the process at once: what was written is complete."""
             console.show_cursor()
-            _say_how_to_go_on(stopped.folder, begin="\n" if console.is_terminal and not quiet else "")
+            _say_how_to_continue(stopped.folder, begin="\n" if console.is_terminal and not quiet else "")
             leave_now(INTERRUPTED)
 
         try:
@@ -102,7 +104,7 @@ def design(
                     ready=ready,
                 )
         except api.Interrupted as stopped:
-            _say_how_to_go_on(stopped.folder)
+            _say_how_to_continue(stopped.folder)
             raise typer.Exit(INTERRUPTED) from None
     _show(designed, seed, runs, as_json=as_json)
     if plot:
@@ -123,19 +125,19 @@ def _show_price(price: "Price", *, as_json: bool) -> None:
     show(json_text(price_plain(price)) if as_json else price_text(price))
 
 
-def _say_how_to_go_on(folder: Path, begin: str = "") -> None:
-    say(f"{begin}stopped; what was done is kept in {folder}. To go on: {_resuming(folder)}")
+def _say_how_to_continue(folder: Path, begin: str = "") -> None:
+    say(f"{begin}stopped; what was done is kept in {folder}. To continue: {_resume_command(folder)}")
 
 
-def _resuming(folder: Path) -> str:
-    """Return the command that goes on: the one given, in that folder."""
+def _resume_command(folder: Path) -> str:
+    """Return the command that continues in a folder: the one given, with --resume."""
     given = [word for word in sys.argv[1:] if word != "--resume"]
     named = any(word.partition("=")[0] == "--out" for word in given)
     return shlex.join(["bbsd", *given, *([] if named else ["--out", str(folder)]), "--resume"])
 
 
 def _draw_curves(designed: "Designed") -> None:
-    """Draw the metrics beside them. The answer was told before: matplotlib takes longer than a small design."""
+    """Draw the metrics into their folder, after the result is shown: matplotlib takes longer than a small design."""
     from bbsd.runs.folder import Folder
 
     draw_curves(Folder(designed.folder).lines(), designed.folder / CURVES)

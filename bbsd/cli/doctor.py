@@ -11,26 +11,26 @@ from bbsd.cli.output import show
 if TYPE_CHECKING:
     from bbsd.report.health import Finding
 
-ILL = 1
-"""The exit code where something is wrong."""
+PROBLEM = 1
+"""The exit code if something is wrong."""
 
 
 def doctor(as_json: AsJson = False) -> None:
-    """Look at the installation: versions, cores, caches, and whether it computes as it should.
+    """Check the installation: versions, cores, caches, a test result.
 
-    Leaves with 1 if something is wrong.
+    Exits with code 1 if something is wrong.
     """
-    from bbsd.report.health import findings
+    from bbsd.report.health import examine
     from bbsd.report.plain import json_text
 
-    found = list(findings())
-    is_well = not any(each.problem for each in found)
+    findings = list(examine())
+    is_well = not any(finding.problem for finding in findings)
     if as_json:
-        show(json_text({"ok": is_well, "findings": [asdict(each) for each in found]}))
+        show(json_text({"ok": is_well, "findings": [asdict(finding) for finding in findings]}))
     else:
-        show("\n".join(map(_line, found)))
+        show("\n".join(map(_line, findings)))
     if not is_well:
-        raise typer.Exit(ILL)
+        raise typer.Exit(PROBLEM)
 
 
 def _line(finding: "Finding") -> str:

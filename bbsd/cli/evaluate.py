@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
 
 TOO_LOW = 1
-"""The exit code where a mean is below --at-least, or a share below --expect-at-least."""
+"""The exit code if a mean is below --at-least, or a share below --expect-at-least."""
 
 
 class NothingExpected(UsageError):
-    """Expectations are required of a spec without any."""
+    """`--expect-at-least` for a spec without expectations."""
 
-    advice = "give a behavior expects: CONDITION, or leave the option out"
+    advice = "add expects: CONDITION to a behavior, or omit the option"
 
 
 class Fill(StrEnum):
-    """What to fill holes with."""
+    """How to fill holes."""
 
     RANDOM = "random"
 
@@ -40,42 +40,57 @@ def evaluate(
     episodes: Annotated[
         int | None,
         typer.Option(
-            metavar="N", min=1, help="Episodes, of each agent.", show_default="1000; 10 with --fill"
+            metavar="N",
+            min=1,
+            help="Number of episodes; with --fill, for each agent.",
+            show_default="1000; 10 with --fill",
         ),
     ] = None,
     seed: Seed = 0,
     at_least: Annotated[
-        float | None, typer.Option(metavar="X", help="Leave with 1 if the mean return is below this.")
+        float | None, typer.Option(metavar="X", help="Exit with code 1 if the mean return is below X.")
     ] = None,
     expect_at_least: Annotated[
         float | None,
         typer.Option(
-            metavar="SHARE", min=0, max=1, help="Leave with 1 if an expectation holds in less of its steps."
+            metavar="SHARE",
+            min=0,
+            max=1,
+            help="Exit with code 1 if an expectation holds in a smaller share of its steps.",
         ),
     ] = None,
     fill: Annotated[
-        Fill | None, typer.Option(help="Fill what is open at random instead of refusing it.")
+        Fill | None, typer.Option(help="Fill holes at random; without it, a spec with holes is refused.")
     ] = None,
-    agents: Annotated[int, typer.Option(metavar="N", min=1, help="Random agents, with --fill.")] = 1000,
-    exact: Annotated[bool, typer.Option("--exact", help="Try every start there is once.")] = False,
+    agents: Annotated[
+        int, typer.Option(metavar="N", min=1, help="Number of random agents, with --fill.")
+    ] = 1000,
+    exact: Annotated[
+        bool,
+        typer.Option(
+            "--exact", help="Run each possible start once instead of random ones: gives the exact mean."
+        ),
+    ] = False,
     overrides: Overrides = None,
     trace: Annotated[
-        Path | None, typer.Option(metavar="FILE.csv", help="Write the first episode, step by step.")
+        Path | None, typer.Option(metavar="FILE.csv", help="Write the first episode step by step.")
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="Draw the first episode: .png, .svg or .pdf.")
+        Path | None, typer.Option(metavar="FILE.png", help="Draw the first episode, as .png, .svg or .pdf.")
     ] = None,
     as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
 ) -> None:
-    """Measure what a design earns.
+    """Measure the return of a design.
 
-    Lives fresh episodes and shows their return, how much of it each reward term gave, which behaviors
-    were in control, and how often what they expect came true.
+    Runs new episodes and shows their mean return, how much of it each reward term gave, the share of time
+    that each behavior was in control, and how often its expectation held.
     """
     if fill and (exact or trace or plot):
-        raise typer.BadParameter("--exact, --trace and --plot are of one design, --fill is of many")
+        raise typer.BadParameter(
+            "--exact, --trace and --plot need one complete design, so they exclude --fill"
+        )
     _require_outputs(trace, plot)
     loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
     if expect_at_least is not None:
@@ -106,7 +121,7 @@ def evaluate(
 
 def _require_expectations(loaded: "Loaded") -> None:
     if all(behavior.expects is None for behavior in loaded.spec.behaviors.values()):
-        raise NothingExpected("--expect-at-least: no behavior of this spec expects anything")
+        raise NothingExpected("--expect-at-least: no behavior of this spec has an expectation")
 
 
 def _require_outputs(trace: Path | None, plot: Path | None) -> None:
@@ -127,25 +142,25 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
 
 
 def _write_episode(loaded: "Loaded", seed: int, trace: Path | None, plot: Path | None) -> None:
-    lived = bbsd.trace(loaded, seed=seed)
+    first_episode = bbsd.trace(loaded, seed=seed)
     if trace:
-        trace.write_text(csv_text(lived), encoding="utf-8")
+        trace.write_text(csv_text(first_episode), encoding="utf-8")
     if plot:
-        draw_episode(lived, loaded.spec, plot)
+        draw_episode(first_episode, loaded.spec, plot)
 
 
-def _too_low(evaluation: "Evaluation", wanted: float | None) -> list[str]:
-    if wanted is None or evaluation.mean >= wanted:
+def _too_low(evaluation: "Evaluation", least: float | None) -> list[str]:
+    if least is None or evaluation.mean >= least:
         return []
-    mean_text, wanted_text, by = column([evaluation.mean, wanted, wanted - evaluation.mean])
-    return [f"bbsd: the mean return {mean_text} is below {wanted_text} by {by}"]
+    mean_text, least_text, by = column([evaluation.mean, least, least - evaluation.mean])
+    return [f"bbsd: the mean return {mean_text} is below {least_text} by {by}"]
 
 
-def _too_rare(evaluation: "Evaluation", wanted: float | None) -> list[str]:
-    """What does not hold often enough; what is expected of a behavior that never controls does not fail."""
-    shares = evaluation.expectation_share.items() if wanted is not None else ()
+def _too_rare(evaluation: "Evaluation", least: float | None) -> list[str]:
+    """Report each expectation that held too rarely; the one of a behavior that never controls (NaN) does not fail."""
+    shares = evaluation.expectation_share.items() if least is not None else ()
     return [
-        f"bbsd: what {name} expects held in {share:.4g} of its steps, below {wanted:g} by {wanted - share:.2g}"
+        f"bbsd: the expectation of {name} held in {share:.4g} of its steps, below {least:g} by {least - share:.2g}"
         for name, share in shares
-        if wanted is not None and share < wanted
+        if least is not None and share < least
     ]

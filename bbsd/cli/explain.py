@@ -9,7 +9,7 @@ from bbsd.report.plain import json_text
 def explain(
     spec: SpecFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = ResultFormat.TEXT
 ) -> None:
-    """Say what a design does, layer by layer."""
+    """Describe in words what a design does, layer by layer."""
     from bbsd.explanation import explanation_text
 
     explanation = bbsd.explain(spec, seed=seed, overrides=overrides or ())

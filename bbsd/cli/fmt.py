@@ -15,54 +15,52 @@ if TYPE_CHECKING:
     from bbsd.text import Source
 
 WOULD_CHANGE = 1
-"""The exit code of --check where a file is not in the house's style."""
+"""The exit code of --check if a file is not formatted."""
 
 
 def fmt(
     specs: Annotated[
         list[Path],
         typer.Argument(
-            metavar="SPEC...", help="Specs, YAML files.", show_default=False, autocompletion=spec_files
+            metavar="SPEC...", help="Specs, as YAML files.", show_default=False, autocompletion=spec_files
         ),
     ],
     check: Annotated[
-        bool, typer.Option("--check", help="Write nothing; leave with 1 if a file would change.")
+        bool, typer.Option("--check", help="Write nothing; exit with code 1 if a file would change.")
     ] = False,
-    diff: Annotated[
-        bool, typer.Option("--diff", help="Write nothing; print what would change as a diff.")
-    ] = False,
+    diff: Annotated[bool, typer.Option("--diff", help="Write nothing; print the changes as a diff.")] = False,
 ) -> None:
-    """Put specs in the house's style: blanks, blank lines and quotes.
+    """Format specs in one style: indentation, spaces, blank lines and quotes.
 
-    What a file says stays the same, and its comments and its order are kept.
+    The data of a file, its comments and its order stay the same.
     """
-    codes = [_formatted(spec, check=check, diff=diff) for spec in specs]
+    codes = [_format(spec, check=check, diff=diff) for spec in specs]
     if code := max(codes):
         raise typer.Exit(code)
 
 
-def _formatted(spec: Path, *, check: bool, diff: bool) -> int:
-    """Put one file in the style and return the exit code for it."""
+def _format(spec: Path, *, check: bool, diff: bool) -> int:
+    """Format one file and return the exit code for it."""
     from bbsd.text import Source
 
     try:
         source = Source.read(spec)
-        styled = _styled(source)
+        formatted = _formatted_text(source)
     except SpecError as error:
         return show_mistake(error)
-    if styled == source.text:
+    if formatted == source.text:
         return 0
     if diff:
-        show(_diff(source, styled))
+        show(_diff(source, formatted))
     if check:
-        say(f"{escape(str(spec))} is not in the style")
+        say(f"{escape(str(spec))} is not formatted")
     elif not diff:
-        spec.write_text(styled, encoding="utf-8", newline="")
-        say(f"{escape(str(spec))} is in the style now")
+        spec.write_text(formatted, encoding="utf-8", newline="")
+        say(f"formatted {escape(str(spec))}")
     return WOULD_CHANGE if check else 0
 
 
-def _styled(source: "Source") -> str:
+def _formatted_text(source: "Source") -> str:
     from bbsd.text import read
     from bbsd.text.writing.house_style import in_house_style
 
@@ -72,8 +70,8 @@ def _styled(source: "Source") -> str:
     return in_house_style(document)
 
 
-def _diff(source: "Source", styled: str) -> str:
+def _diff(source: "Source", formatted: str) -> str:
     lines = unified_diff(
-        source.text.splitlines(), styled.splitlines(), source.file, f"{source.file} in the style", lineterm=""
+        source.text.splitlines(), formatted.splitlines(), source.file, f"{source.file} formatted", lineterm=""
     )
     return "\n".join(escape(line) for line in lines)

@@ -6,11 +6,11 @@ from bbsd.cli.output import has_color, say
 from bbsd.errors import SpecError, UsageError, render_text
 
 MISTAKE = 2
-"""The exit code for what the user gave and can mend."""
+"""The exit code for a mistake that the user can correct."""
 
 
 def show_mistake(error: Exception) -> int:
-    """Tell of an error and return the exit code; one that is our own mistake is raised again."""
+    """Show an error and return the exit code; raise it again if it is a bug of this program."""
     if isinstance(error, SpecError):
         say(diagnoses_text(error, color=has_color(sys.stderr)))
     elif isinstance(error, OSError):
@@ -24,7 +24,9 @@ def show_mistake(error: Exception) -> int:
 
 def diagnoses_text(error: SpecError, *, color: bool) -> str:
     """Return diagnoses with their source lines, a blank line between them."""
-    return "\n\n".join(render_text(each, error.line(each.place), color) for each in error.diagnoses)
+    return "\n\n".join(
+        render_text(diagnosis, error.line(diagnosis.place), color) for diagnosis in error.diagnoses
+    )
 
 
 def _os_text(error: OSError) -> str:

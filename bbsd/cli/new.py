@@ -14,35 +14,36 @@ from bbsd.cli.output import say, show
 from bbsd.errors import UsageError, escape
 
 MAX_NAME_LENGTH = 100
+"""Characters of a spec's name, at most, as the language allows."""
 
 
 class Template(StrEnum):
-    """Specs to begin with, the simplest first: files in `templates`."""
+    """Specs to start from, the simplest first: files in `templates`."""
 
     MINIMAL = "minimal"
     TWO_ROBOTS = "two_robots"
     ANSWERS = "answers"
 
 
-class IsThereError(UsageError):
+class AlreadyExists(UsageError):
     """A file that would have to be overwritten."""
 
-    advice = "nothing is overwritten: choose another name, or remove the file"
+    advice = "no file is overwritten: choose another name, or remove the file"
 
 
 def new(
     name: Annotated[
         str | None,
         typer.Argument(
-            metavar="NAME", help="The new spec's name; its file is NAME.yaml.", show_default=False
+            metavar="NAME", help="Name of the new spec; its file is NAME.yaml.", show_default=False
         ),
     ] = None,
-    template: Annotated[Template, typer.Option(help="What to begin with.")] = Template.MINIMAL,
-    listed: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
+    template: Annotated[Template, typer.Option(help="The spec to start from.")] = Template.MINIMAL,
+    listed: Annotated[bool, typer.Option("--list", help="List the templates and exit.")] = False,
 ) -> None:
-    """Write a small spec that runs, to be changed into your own.
+    """Write a small spec that runs, as a start for your own.
 
-    Beside it goes the JSON Schema by which editors complete and check it.
+    Also writes the JSON Schema of the language beside it, by which editors complete and check specs.
     """
     if listed:
         show("\n".join(_descriptions()))
@@ -74,7 +75,7 @@ def _write(path: Path, template: Template) -> None:
     schema = path.with_name(SCHEMA_FILE)
     if not schema.exists():
         _create(schema, _schema_text())
-    say(f"{escape(str(path))} is there; next: {escape(shlex.join(['bbsd', 'design', str(path)]))}")
+    say(f"wrote {escape(str(path))}; next: {escape(shlex.join(['bbsd', 'design', str(path)]))}")
 
 
 def _schema_text() -> str:
@@ -89,4 +90,4 @@ def _create(path: Path, text: str) -> None:
         with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write(text)
     except FileExistsError:
-        raise IsThereError(f"{path} is there already") from None
+        raise AlreadyExists(f"{path} already exists") from None

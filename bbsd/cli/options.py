@@ -1,4 +1,4 @@
-"""Arguments and options that several commands have."""
+"""Arguments and options that several commands share."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -8,22 +8,22 @@ import typer
 
 
 def spec_files(incomplete: str) -> list[str]:
-    """Return the specs and folders whose path begins as what is typed, for a shell's completion.
+    """Return the specs and folders whose path starts with the typed text, for completion in a shell.
 
-    What is in a folder is added where nothing else is meant: shells put a blank behind what is alone.
+    If only one folder matches, its content is added: shells put a space after a single match.
     """
-    begun = incomplete[: incomplete.rfind("/") + 1]
+    folder = incomplete[: incomplete.rfind("/") + 1]
     try:
-        paths = sorted(Path(begun or ".").iterdir())
+        paths = sorted(Path(folder or ".").iterdir())
     except OSError:
         return []
-    names = (f"{path.name}/" if path.is_dir() else path.name for path in paths if _may_be_meant(path))
-    found = [begun + name for name in names if (begun + name).startswith(incomplete)]
-    is_alone = len(found) == 1 and found[0].endswith("/")
-    return [*found, *spec_files(found[0])] if is_alone else found
+    names = (f"{path.name}/" if path.is_dir() else path.name for path in paths if _is_candidate(path))
+    matches = [folder + name for name in names if (folder + name).startswith(incomplete)]
+    is_one_folder = len(matches) == 1 and matches[0].endswith("/")
+    return [*matches, *spec_files(matches[0])] if is_one_folder else matches
 
 
-def _may_be_meant(path: Path) -> bool:
+def _is_candidate(path: Path) -> bool:
     return not path.name.startswith(".") and (path.suffix in SUFFIXES or path.is_dir())
 
 
@@ -36,25 +36,31 @@ SpecFile = Annotated[
     ),
 ]
 
-Seed = Annotated[int, typer.Option("--seed", metavar="N", min=0, help="Names all random streams.")]
+Seed = Annotated[
+    int,
+    typer.Option(
+        "--seed", metavar="N", min=0, help="Seed of all random numbers; the same seed gives the same result."
+    ),
+]
 
 Overrides = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="PATH=VALUE",
-        help="Another value, such as design.coevolution.generations=10; may be repeated.",
+        help="Override a value of the spec, such as design.coevolution.generations=10; may be repeated.",
         show_default=False,
     ),
 ]
 
-Jobs = Annotated[
-    int, typer.Option(metavar="N", min=1, help="Threads that share the work; the result is the same.")
-]
+Jobs = Annotated[int, typer.Option(metavar="N", min=1, help="Threads to use; affects only the speed.")]
 Lanes = Annotated[
     int,
     typer.Option(
-        "--lanes", metavar="N", min=1, help="Episodes side by side in a kernel; results do not depend on it."
+        "--lanes",
+        metavar="N",
+        min=1,
+        help="Episodes that a kernel runs side by side; affects only the speed.",
     ),
 ]
 
@@ -68,4 +74,4 @@ class ResultFormat(StrEnum):
     JSON = "json"
 
 
-AsFormat = Annotated[ResultFormat, typer.Option("--format", help="How to print it.")]
+AsFormat = Annotated[ResultFormat, typer.Option("--format", help="Format of the output.")]

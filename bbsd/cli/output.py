@@ -1,4 +1,4 @@
-"""Where a command's words go."""
+"""Output of the commands: results, notes and tables."""
 
 import errno
 import os
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def show(text: str) -> None:
-    """Print data. Where nobody reads on (`| head`), that is no mistake: the rest goes nowhere."""
+    """Print a result to standard output. If its reader has closed it (`| head`), drop the rest without an error."""
     try:
         sys.stdout.write(text if text.endswith("\n") or not text else text + "\n")
         sys.stdout.flush()
@@ -22,7 +22,7 @@ def show(text: str) -> None:
 
 
 def say(text: str) -> None:
-    """Print a remark."""
+    """Print a note to standard error."""
     try:
         sys.stderr.write(text + "\n")
     except BrokenPipeError:
@@ -30,7 +30,7 @@ def say(text: str) -> None:
 
 
 def leave_now(code: int) -> NoReturn:
-    """End the process without waiting for anything that it does."""
+    """End the process without waiting for its threads."""
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError):
             stream.flush()
@@ -38,12 +38,12 @@ def leave_now(code: int) -> NoReturn:
 
 
 def _discard(stream: TextIO) -> None:
-    """Let what is still in a stream's buffer go nowhere when Python flushes it at its end."""
+    """Send what is still in a stream's buffer to nowhere, when Python flushes it at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def show_table(table: "RenderableType") -> None:
-    """Print a table, as wide as its terminal, without color where that is not wanted."""
+    """Print a table as wide as its terminal, without color if that is not wanted."""
     console = _console(sys.stdout)
     with console.capture() as capture:
         console.print(table, crop=False)
@@ -51,7 +51,7 @@ def show_table(table: "RenderableType") -> None:
 
 
 def error_console() -> "Console":
-    """Return the console of remarks."""
+    """Return the console of standard error."""
     return _console(sys.stderr)
 
 
@@ -62,24 +62,24 @@ def _console(stream: TextIO) -> "Console":
 
 
 def never_fail_to_encode(*streams: TextIO) -> None:
-    """Let streams write what their encoding does not have as escapes, such as block characters in ASCII."""
+    """Make streams escape characters that their encoding does not have, such as block characters in ASCII."""
     for stream in streams:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
 def has_blocks() -> bool:
-    """Say whether standard output can show block characters."""
+    """Return whether standard output can show block characters."""
     return (sys.stdout.encoding or "").lower().startswith("utf")
 
 
 def has_color(stream: TextIO) -> bool:
-    """Say whether a stream is a terminal that shows colors, and they are wanted."""
+    """Return whether a stream is a terminal that shows colors, and they are wanted."""
     return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
 def require_writable_file(path: Path) -> None:
-    """Raise OSError if no file can be written at a path, before time is spent on what it is to hold."""
+    """Raise OSError if no file can be written at a path, before time is spent on its content."""
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     folder = path.parent

@@ -1,1 +1,1 @@
-"""What comes out of a command, as people and programs read it: tables, progress, figures, plain data."""
+"""Results as people and programs read them: tables, progress, figures, JSON, the language's reference."""

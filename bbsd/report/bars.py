@@ -1,7 +1,8 @@
-"""Small pictures made of characters."""
+"""Bars and curves made of characters."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -15,14 +16,13 @@ EIGHTHS = ("", "▏", "▎", "▍", "▌", "▋", "▊", "▉")
 def sparkline(values: Sequence[float], width: int) -> str:
     """Return a curve of at most `width` characters.
 
-    Where there are more values, each character stands for the mean of several. What is not finite is left
-    out; a constant curve is drawn halfway up.
+    If there are more values, each character stands for the mean of several. Values that are not finite are
+    left out; a constant curve is drawn at half height.
     """
-    known = [value for value in values if isfinite(value)]
-    size = min(width, len(known))
-    means = [
-        _mean(known[len(known) * place // size : len(known) * (place + 1) // size]) for place in range(size)
-    ]
+    numbers = [value for value in values if isfinite(value)]
+    size = min(width, len(numbers))
+    bounds = [len(numbers) * index // size for index in range(size + 1)] if size else []
+    means = [_mean(numbers[begin:end]) for begin, end in pairwise(bounds)]
     low, high = min(means, default=0.0), max(means, default=0.0)
     return "".join(LEVELS[_level(mean, low, high)] for mean in means)
 
@@ -38,7 +38,7 @@ def _level(value: float, low: float, high: float) -> int:
 
 
 def bar(share: float, width: int, *, blocks: bool = True) -> str:
-    """Return a bar as long as the share of `width` characters, in eighths; without blocks in ASCII."""
+    """Return a bar whose length is a share of `width` characters, in eighths; without `blocks` in ASCII."""
     if not share > 0:
         return ""
     eighths = round(min(share, 1.0) * width * 8)

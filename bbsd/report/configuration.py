@@ -1,4 +1,4 @@
-"""A spec with its defaults filled in, and where each value comes from."""
+"""A spec with its defaults filled in, and the origin of each value."""
 
 from __future__ import annotations
 
@@ -17,37 +17,39 @@ if TYPE_CHECKING:
     from bbsd.text.nodes import DataPath
 
 DEFAULT, OVERRIDE = "default", "--set"
-WIDEST = 72
-"""The column up to which comments are aligned."""
+LAST_COMMENT_COLUMN = 72
+"""The last column at which comments are aligned; a longer line has its comment right behind it."""
 
 
 def configuration_text(loaded: Loaded) -> str:
-    """Return a spec as YAML with nothing left to defaults, what it extends included.
+    """Return a spec, with those that it extends and with all defaults, as YAML.
 
-    Comments say where each value comes from: file:line, default, or --set.
+    A comment says where each value comes from: file:line, default, or --set.
     """
-    whole = _filled(loaded.spec, loaded.data)
-    lines = list(_lines(whole, (), loaded.data, loaded.lineage))
-    width = max((len(text) for text, origin in lines if origin and len(text) < WIDEST), default=0)
+    data = _with_defaults(loaded.spec, loaded.data)
+    lines = list(_lines(data, (), loaded.data, loaded.lineage))
+    width = max(
+        (len(text) for text, origin in lines if origin and len(text) < LAST_COMMENT_COLUMN), default=0
+    )
     return "".join(f"{text:<{width}}  # {origin}\n" if origin else f"{text}\n" for text, origin in lines)
 
 
-def _filled(part: Part, data: Data) -> dict[str, Data]:
-    """Return the data of a part, then what is not written there; empty defaults are left out."""
+def _with_defaults(part: Part, data: Data) -> dict[str, Data]:
+    """Return the data of a part, followed by its defaults for keys that are not written, unless they are empty."""
     written = data if isinstance(data, dict) else {}
-    known = {key: _value(getattr(part, key), written.get(key)) for key in type(part).model_fields}
-    free = {key: each for key, each in written.items() if key not in known}
-    ordered = {key: known.get(key, free.get(key)) for key in (*written, *known)}
-    return {key: each for key, each in ordered.items() if key in written or each not in (None, "", {}, [])}
+    fields = {key: _value(getattr(part, key), written.get(key)) for key in type(part).model_fields}
+    others = {key: value for key, value in written.items() if key not in fields}
+    ordered = {key: fields.get(key, others.get(key)) for key in (*written, *fields)}
+    return {key: value for key, value in ordered.items() if key in written or value not in (None, "", {}, [])}
 
 
 def _value(value: object, data: Data) -> Data:
-    """Return a value as it is written, or as it would be."""
+    """Return the data of a value as it is written, or as its default would be written."""
     if isinstance(value, Part):
-        return _filled(value, data)
-    if isinstance(value, dict) and any(isinstance(each, Part) for each in value.values()):
+        return _with_defaults(value, data)
+    if isinstance(value, dict) and any(isinstance(part, Part) for part in value.values()):
         written = data if isinstance(data, dict) else {}
-        return {str(key): _value(each, written.get(str(key))) for key, each in value.items()}
+        return {str(key): _value(part, written.get(str(key))) for key, part in value.items()}
     if data is not None:
         return data
     return (
@@ -59,32 +61,32 @@ def _value(value: object, data: Data) -> Data:
     )
 
 
-def _lines(value: dict[str, Data], path: DataPath, data: Data, lineage: Lineage) -> Iterator[tuple[str, str]]:
-    """Yield lines of YAML, each with the origin that is to be noted on it, if any."""
+def _lines(block: dict[str, Data], path: DataPath, data: Data, lineage: Lineage) -> Iterator[tuple[str, str]]:
+    """Yield lines of YAML, each with the origin for its comment, or ""."""
     indent = 2 * len(path) * " "
-    for key, each in value.items():
-        here = (*path, key)
-        if isinstance(each, dict) and each:
+    for key, value in block.items():
+        value_path = (*path, key)
+        if isinstance(value, dict) and value:
             yield from [("", "")] * (not path)
             yield f"{indent}{key}:", ""
-            yield from _lines(each, here, data, lineage)
+            yield from _lines(value, value_path, data, lineage)
         else:
-            yield from _leaf(key, each, indent, _origin(here, data, lineage))
+            yield from _leaf(key, value, indent, _origin(value_path, data, lineage))
 
 
 def _leaf(key: str, value: Data, indent: str, origin: str) -> Iterator[tuple[str, str]]:
-    """Yield the lines of an entry; a comment after the first of several would end a text that goes on."""
+    """Yield the lines of an entry; its comment is on the last one, since it would end a text of several lines."""
     lines = entry_lines(key, value, len(indent))
-    noted = 0 if lines[0].endswith((":", "|", "|-", "|+")) else len(lines) - 1
+    commented = 0 if lines[0].endswith((":", "|", "|-", "|+")) else len(lines) - 1
     for number, line in enumerate(lines):
-        yield indent + line, origin if number == noted else ""
+        yield indent + line, origin if number == commented else ""
 
 
 def _origin(path: DataPath, data: Data, lineage: Lineage) -> str:
-    asked, written = _at(data, path), _at(lineage.data, path)
-    if asked is None:
+    value, written = _at(data, path), _at(lineage.data, path)
+    if value is None:
         return DEFAULT
-    if asked != written:
+    if value != written:
         return OVERRIDE
     place = lineage.place(path, on_key=True)
     return f"{place.file}:{place.line}"

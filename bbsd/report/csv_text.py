@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def csv_text(trace: Trace) -> str:
-    """Return the names of a trace's columns and one line for each step, numbers with all their digits."""
+    """Return a line with the names of a trace's columns, then a line for each step; numbers have all their digits."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(trace.columns)

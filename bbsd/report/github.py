@@ -16,7 +16,7 @@ IN_PROPERTY = IN_MESSAGE | str.maketrans({":": "%3A", ",": "%2C"})
 
 
 def github_text(diagnoses: Iterable[Diagnosis]) -> str:
-    """Return one command a line; what would end a property or begin another command is escaped."""
+    """Return one command per line; characters that would end a property or start another command are escaped."""
     return "\n".join(map(_command, diagnoses))
 
 
@@ -29,10 +29,10 @@ def _command(diagnosis: Diagnosis) -> str:
         "endColumn": str(place.column + place.length),
         "title": diagnosis.code,
     }
-    written = ",".join(f"{name}={value.translate(IN_PROPERTY)}" for name, value in properties.items())
-    return f"::{diagnosis.severity} {written}::{message_text(diagnosis).translate(IN_MESSAGE)}"
+    listed = ",".join(f"{name}={value.translate(IN_PROPERTY)}" for name, value in properties.items())
+    return f"::{diagnosis.severity} {listed}::{message_text(diagnosis).translate(IN_MESSAGE)}"
 
 
 def message_text(diagnosis: Diagnosis) -> str:
-    """Return what is wrong and what to do about it, in one text."""
+    """Return the message and the advice of a diagnosis in one text."""
     return escape("; ".join(filter(None, (diagnosis.message, diagnosis.advice))))

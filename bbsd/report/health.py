@@ -1,4 +1,4 @@
-"""What the tool finds of itself on a machine: versions, cores, caches, and whether it computes as it should."""
+"""An examination of the installation: versions, cores, caches, and a test result."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 PACKAGES = ("numba", "llvmlite", "numpy", "pydantic", "PyYAML", "yamlcore", "typer", "rich")
 OLDEST_PYTHON = (3, 11)
 
-KNOWN_SPEC = """\
+SELF_CHECK_SPEC = """\
 bbsd: 1
 name: known
 environment:
@@ -33,21 +33,21 @@ behaviors:
 structure: [wait]
 reward: {height: x}
 """
-KNOWN_RETURN = "0x1.a5c721413da6ep+1"
-"""What the spec's first episode earns by the streams of key 0, on every machine."""
+SELF_CHECK_RETURN = "0x1.a5c721413da6ep+1"
+"""The return of the test spec's episode with key 0, on every machine."""
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that was looked at; `problem` says what is wrong with it and what to do, '' if nothing is."""
+    """A value that was examined; `problem` says what is wrong with it and what to do, or is ''."""
 
     name: str
     value: str
     problem: str = ""
 
 
-def findings() -> Iterator[Finding]:
-    """Yield all there is to say, fast: nothing is compiled."""
+def examine() -> Iterator[Finding]:
+    """Yield all findings; nothing is compiled, so that it is fast."""
     yield Finding("bbsd", __version__)
     yield _python()
     for package in PACKAGES:
@@ -73,7 +73,7 @@ def _package(name: str) -> Finding:
 
 
 def _figures() -> Finding:
-    """Without matplotlib all works but figures."""
+    """Return the version of matplotlib, without which all works except figures."""
     try:
         return Finding("matplotlib", version("matplotlib"))
     except PackageNotFoundError:
@@ -82,24 +82,22 @@ def _figures() -> Finding:
 
 def _cores() -> str:
     allowed = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return f"{allowed} of {os.cpu_count()} may be used; a design uses as many as --jobs says, one by default"
+    return f"{allowed} of {os.cpu_count()} available; a design uses as many as --jobs says, one by default"
 
 
 def _compiler() -> Finding:
     given = {name: value for name, value in sorted(os.environ.items()) if name.startswith("NUMBA_")}
-    value = ", ".join(f"{name}={value}" for name, value in given.items()) or "numba as it comes"
+    value = ", ".join(f"{name}={value}" for name, value in given.items()) or "numba with default settings"
     if given.get("NUMBA_DISABLE_JIT", "0") not in ("0", ""):
         return Finding(
-            "compiler", value, "nothing is compiled, and designs take hours: unset NUMBA_DISABLE_JIT"
+            "compiler", value, "nothing is compiled, so designs take hours: unset NUMBA_DISABLE_JIT"
         )
     return Finding("compiler", value)
 
 
 def _cache(root: Path) -> Finding:
     if not (usable(root) and usable(root / "kernels") and usable(root / "compiled")):
-        advice = (
-            f"set {CACHE_VARIABLE} to a folder that only you can write; without it each command compiles anew"
-        )
+        advice = f"set {CACHE_VARIABLE} to a folder that only you can write; without it each command compiles again"
         return Finding("cache", str(root), f"it cannot be used: {advice}")
     files = [path for path in root.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
@@ -107,20 +105,21 @@ def _cache(root: Path) -> Finding:
 
 
 def _self_check() -> Finding:
-    """Live one episode as plain Python, and compare with what it earns everywhere."""
+    """Run one episode as plain Python, and compare its return with the known one."""
     try:
-        found = known_return()
-    except Exception as error:  # noqa: BLE001 - whatever is wrong with an installation is to be told
+        result = self_check_return()
+    except Exception as error:  # noqa: BLE001 - any defect of an installation is shown
         return Finding("self-check", "failed", f"{type(error).__name__}: {error}")
-    if found != KNOWN_RETURN:
-        return Finding(
-            "self-check", found, f"an episode should earn {KNOWN_RETURN}: designs differ from others'"
+    if result != SELF_CHECK_RETURN:
+        problem = (
+            f"the test episode should return {SELF_CHECK_RETURN}: designs differ from those on other machines"
         )
-    return Finding("self-check", "an episode earns what it should, to the last bit")
+        return Finding("self-check", result, problem)
+    return Finding("self-check", "the test episode has the right return, to the last bit")
 
 
-def known_return() -> str:
-    """Return what an episode of the known spec earns, all its digits."""
+def self_check_return() -> str:
+    """Return the return of an episode of the test spec, with all its digits."""
     import numpy as np
 
     from bbsd.architecture import given_architecture
@@ -129,6 +128,6 @@ def known_return() -> str:
     from bbsd.language.loading import load
     from bbsd.text import Source
 
-    problem = compile_meaning(load(Source("known", KNOWN_SPEC)).meaning, compiled=False)
+    problem = compile_meaning(load(Source("known", SELF_CHECK_SPEC)).meaning, compiled=False)
     agents = agents_of([given_architecture(problem)])
     return float(returns_of(problem, agents, np.zeros(1, np.uint64), 1)[0, 0]).hex()

@@ -1,4 +1,4 @@
-"""Numbers as people read them."""
+"""Numbers, shares and durations as texts for people."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 DIGITS = 5
-"""Significant digits of the largest number of a column."""
+"""The number of significant digits of the largest number in a column."""
 
 
 def number(value: float) -> str:
@@ -18,7 +18,7 @@ def number(value: float) -> str:
 
 
 def column(values: Sequence[float]) -> list[str]:
-    """Return numbers to stand below each other: all with the decimals that the largest of five digits has."""
+    """Return numbers for a column: all with as many decimals as the largest has with five significant digits."""
     largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
     if largest and not 1e-3 <= largest < 1e9:
         return [_special(value) or f"{value:.{DIGITS - 1}e}" for value in values]
@@ -39,7 +39,7 @@ def percent(share: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Return a time as people say it: `8.1 s`, `3 min 5 s`, `2 h 10 min`."""
+    """Return a duration in words: `8.1 s`, `3 min 5 s`, `2 h 10 min`."""
     if seconds < 60:
         return f"{seconds:.1f} s"
     minutes, rest = divmod(round(seconds), 60)
@@ -48,6 +48,6 @@ def duration(seconds: float) -> str:
     return f"{minutes // 60} h {minutes % 60} min"
 
 
-def count(number_of: int, what: str, plural: str = "") -> str:
-    """Return a number with the thing counted: `1 behavior`, `5,000 behaviors`."""
-    return f"{number_of:,} {what if number_of == 1 else plural or what + 's'}"
+def count(number_of: int, noun: str, plural: str = "") -> str:
+    """Return a number with the noun for what is counted: `1 behavior`, `5,000 behaviors`."""
+    return f"{number_of:,} {noun if number_of == 1 else plural or noun + 's'}"

@@ -1,4 +1,4 @@
-"""Results as plain data for JSON, which has no infinities and no NaN: those are null."""
+"""Results as plain data for JSON; infinities and NaN, which JSON does not have, are null."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Plain: TypeAlias = "Mapping[str, Plain] | Sequence[Plain] | str | int | float | 
 
 
 def json_text(plain: Plain) -> str:
-    """Return plain data as JSON of several lines, without a line break at its end."""
+    """Return plain data as JSON of several lines, without a line break at the end."""
     return json.dumps(plain, indent=2, allow_nan=False, ensure_ascii=False)
 
 
 def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
-    """Return what an evaluation found; `expectation_share` and `not_finite` only where there are any."""
+    """Return the results of an evaluation; `expectation_share` and `not_finite` only if there are any."""
     plain: dict[str, Plain] = {
         "return": interval_plain(evaluation.returns),
         "episodes": evaluation.episodes,
@@ -40,7 +40,7 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
 
 
 def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
-    """Return what a design found, and for which seed and number of runs."""
+    """Return the result of a design, with its seed and number of runs."""
     return {
         "architecture": str(designed.architecture),
         "return": interval_plain(designed.evaluation.returns),
@@ -64,5 +64,5 @@ def interval_plain(interval: Interval) -> dict[str, Plain]:
 
 
 def finite_or_none(value: float) -> float | None:
-    """Return the value, None if it is infinite or NaN."""
+    """Return the value, or None if it is infinite or NaN."""
     return value if isfinite(value) else None

@@ -1,4 +1,4 @@
-"""What a design will cost, for people and programs."""
+"""The estimated cost of a design, as a text and as plain data."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ def price_plain(price: Price) -> dict[str, Plain]:
 
 
 def price_text(price: Price) -> str:
-    """Return a price as lines for people."""
+    """Return a price as lines of text."""
     layers = f"{count(price.layers, 'layer')}, {price.open_layers} open"
     rows = {
         "structure": layers,
         "search space": f"10^{price.decades:.1f} designs",
-        "episodes": f"{price.episodes:,} lived, and about {price.further_episodes:,} to choose and to judge",
-        "steps": f"{price.steps:,} of robots at most",
+        "episodes": f"{price.episodes:,} in the generations, about {price.further_episodes:,} to choose and judge",
+        "steps": f"{price.steps:,} at most, counted for each robot",
         "memory": f"about {price.bytes / 1e6:,.0f} MB",
-        "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs an episode, "
-        f"{duration(price.starting + price.compiling)} to start, to compile and to draw",
+        "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs per episode, "
+        f"{duration(price.starting + price.compiling)} to start, compile and draw",
     }
     return "\n".join([*_tables(price), "", *(f"{name:<14}{text}" for name, text in rows.items())])
 

@@ -1,6 +1,6 @@
-"""The parts of the language's reference that follow from the code: its keys, its words, its mistakes.
+"""The parts of the language's reference that are generated from the code: keys, functions, words, mistakes.
 
-`docs/language.md` holds them between marks; a test compares, and writes them anew with --update-golden.
+`docs/language.md` holds them between marks; a test compares them, and updates them with --update-golden.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ BLOCKS: Mapping[str, tuple[type[Part], ...]] = {
     "design.culture": (design.CultureSettings,),
     "design.answer": (design.Answer,),
 }
-"""Headings, and the parts of a spec that are described under each."""
+"""Headings, with the models that are described under each."""
 
 WIDTH = 110
 
@@ -44,39 +44,39 @@ MARKED = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL
 
 
 def regenerate(document: str) -> str:
-    """Return a document with what stands between its marks written anew; KeyError for an unknown mark."""
-    return MARKED.sub(lambda found: f"{found[1]}\n{SECTIONS[found[2]]()}\n{found[3]}", document)
+    """Return a document with the text between its marks generated again; KeyError for an unknown mark."""
+    return MARKED.sub(lambda match: f"{match[1]}\n{SECTIONS[match[2]]()}\n{match[3]}", document)
 
 
 def keys_text() -> str:
-    """All keys of a spec, block by block."""
+    """Return tables of all keys of a spec, block by block."""
     return "\n".join(_block_text(title, parts) for title, parts in BLOCKS.items())
 
 
 def functions_text() -> str:
-    """The functions of numbers."""
-    rows = ((f"`{name}`", str(each.arity), each.meaning) for name, each in FUNCTIONS.items())
+    """Return a table of the functions of numbers."""
+    rows = ((f"`{name}`", str(function.arity), function.meaning) for name, function in FUNCTIONS.items())
     return _table(("function", "arguments", "value"), rows)
 
 
 def aggregates_text() -> str:
-    """What makes one value of several."""
+    """Return a table of the aggregates, which make one value of several."""
     return _table(("aggregate", "value"), ((f"`{name}`", meaning) for name, meaning in AGGREGATES.items()))
 
 
 def draws_text() -> str:
-    """The random draws."""
+    """Return a table of the random draws."""
     rows = ((f"`{name}`", str(arity), meaning) for name, (arity, meaning) in DRAWS.items())
     return _table(("draw", "arguments", "value"), rows)
 
 
 def reserved_text() -> str:
-    """The words that cannot be names."""
+    """Return a list of the words that cannot be names."""
     return fill(" ".join(f"`{word}`" for word in sorted(RESERVED)), WIDTH) + "\n"
 
 
 def mistakes_text() -> str:
-    """The codes of mistakes."""
+    """Return a table of the codes of mistakes."""
     return _table(("code", "mistake"), ((code, _cell(kind.title)) for code, kind in KINDS.items()))
 
 
@@ -113,7 +113,7 @@ def _cell(text: str) -> str:
 
 
 def _kind(annotation: Any) -> str:  # noqa: ANN401 - a type, of any kind
-    """What may stand under a key, in the words of the language."""
+    """Return the kind of value that a key takes, in the words of the language."""
     origin, arguments = get_origin(annotation), get_args(annotation)
     if annotation == models.PartitionText:
         return "partition"
@@ -143,7 +143,7 @@ KIND_NAMES: Mapping[Any, str] = {
 
 
 def _bounds(field: FieldInfo) -> str:
-    """The least and the greatest number that may stand there."""
+    """Return the least and the greatest number that a key takes, or ""."""
     low, high = (
         next((getattr(rule, name) for rule in field.metadata if hasattr(rule, name)), None)
         for name in ("ge", "le")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 RULES = tuple(KINDS)
-"""Codes in the order in which a log describes them."""
+"""The codes, in the order in which a log describes them."""
 
 
 def sarif_log(diagnoses: Iterable[Diagnosis]) -> dict[str, Any]:
@@ -26,7 +26,7 @@ def sarif_log(diagnoses: Iterable[Diagnosis]) -> dict[str, Any]:
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
-        "results": [_result(each) for each in diagnoses],
+        "results": [_result(diagnosis) for diagnosis in diagnoses],
     }
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
 
@@ -60,6 +60,6 @@ def _location(place: Place) -> dict[str, Any]:
 
 
 def _uri(file: str) -> str:
-    """Return a file as a URI reference, relative where the file is."""
+    """Return a file name as a URI reference; it is relative if the name is."""
     path = Path(file)
     return path.as_uri() if path.is_absolute() else quote(path.as_posix())

@@ -1,6 +1,6 @@
-"""The language as a JSON Schema (draft 7), from the spec's models: editors complete, explain and check by it.
+"""The language as a JSON Schema (draft 7), made from the spec's models: editors complete and check specs by it.
 
-It knows the form of a spec. What expressions and names mean only `bbsd check` can tell.
+It describes the form of a spec; only `bbsd check` checks expressions and the use of names.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
 Schema: TypeAlias = dict[str, Any]
 
 SCHEMA_FILE = "bbsd.schema.json"
-"""What the schema is called where it lies in a file."""
+"""The name of a file with the schema."""
 
 SCALAR: Schema = {"type": ["string", "number", "boolean"]}
-"""An expression, or a cell's name. It is not referred to: an editor would show its description, not the key's."""
+"""An expression or the name of a cell; no $ref, for which editors would show another description than the key's."""
 LETTERS = "[a-z][a-z0-9_]*"
 PARAMETERS = rf"(?:\s*\(\s*{LETTERS}\s*(?:,\s*{LETTERS}\s*)*\))?\s*"
 NAME_ADVICE = "names are small letters, digits and _, a letter first, and no word of the language"
 
 
 def language_schema() -> Schema:
-    """Return the schema of a spec: its blocks inside each other, a description and a default for each key.
+    """Return the schema of a spec: nested blocks, with a description and a default for each key.
 
-    A spec that extends another may lack any key, and any may be null, which takes it away.
+    A spec that extends another may omit any key, and may set any to null, which removes it.
     """
     whole = {**_part(models.Spec), "title": "A bbsd spec"}
     return {
@@ -51,14 +51,14 @@ def language_schema() -> Schema:
 
 
 def _partial(schema: Schema) -> Schema:
-    """Return the schema of a block of which any part may be missing, and any key's value null."""
+    """Return the schema of a block in which any key may be missing or null."""
     partial = {key: value for key, value in schema.items() if key not in ("required", "minProperties")}
     if "properties" in schema:
-        partial["properties"] = {key: _nullable(each) for key, each in schema["properties"].items()}
+        partial["properties"] = {key: _nullable(value) for key, value in schema["properties"].items()}
     if isinstance(values := schema.get("additionalProperties"), dict):
         partial["additionalProperties"] = _nullable(values)
     if "anyOf" in schema:
-        partial["anyOf"] = [_partial(each) for each in schema["anyOf"]]
+        partial["anyOf"] = [_partial(option) for option in schema["anyOf"]]
     return partial
 
 
@@ -75,7 +75,7 @@ def _nullable(schema: Schema) -> Schema:
 
 
 def _definitions() -> Schema:
-    """Return what is referred to: names, and the one form that holds itself."""
+    """Return the schemas that others refer to: names, and constants, whose lists contain constants."""
     table = {"type": "array", "items": _ref("constant")}
     return {
         "constant": {"description": "An expression, or a nested list of numbers.", "anyOf": [SCALAR, table]},
@@ -89,18 +89,18 @@ def _ref(definition: str) -> Schema:
     return {"$ref": f"#/definitions/{definition}"}
 
 
-def _name(taken: Iterable[str], rest: str = "", end: str = "$") -> Schema:
-    pattern = f"^(?!(?:{'|'.join(sorted(taken))}){end}){LETTERS}{rest}$|^{FREE}"
+def _name(reserved: Iterable[str], rest: str = "", end: str = "$") -> Schema:
+    pattern = f"^(?!(?:{'|'.join(sorted(reserved))}){end}){LETTERS}{rest}$|^{FREE}"
     return {"type": "string", "pattern": pattern, "patternErrorMessage": NAME_ADVICE}
 
 
 def _word_or_name(*words: str) -> Schema:
-    """Return a text for which editors propose some words."""
+    """Return the schema of a text for which editors propose some words."""
     return {"type": "string", "anyOf": [{"enum": [*words]}, {"type": "string"}]}
 
 
 def _part(part: type[Part]) -> Schema:
-    """Return a block with the language's own keys."""
+    """Return the schema of a block with the keys of a model."""
     fields = part.model_fields
     return {
         "title": part.__name__.lower(),
@@ -122,7 +122,7 @@ def _field(part: type[Part], key: str, field: FieldInfo) -> Schema:
 
 
 def _or_nothing(schema: Schema) -> Schema:
-    """Return the schema of a key under which nothing need be written if it holds a block."""
+    """Return the schema of an optional key, which may be empty if its value is a block or a list."""
     if "anyOf" in schema:
         first, *others = schema["anyOf"]
         return {**schema, "anyOf": [_or_nothing(first), *others]}
@@ -141,7 +141,7 @@ def _default(value: object) -> Schema:
 
 
 def _with_bounds(schema: Schema, rules: Iterable[object]) -> Schema:
-    """Return a schema with the bounds that a model sets."""
+    """Return a schema with the bounds that the model sets."""
     for rule in rules:
         match rule:
             case Ge(low):
@@ -158,7 +158,7 @@ def _with_bounds(schema: Schema, rules: Iterable[object]) -> Schema:
 
 
 def _kind(annotation: Any) -> Schema:  # noqa: ANN401 - a type, of any kind
-    """Return what may stand where a model has this type."""
+    """Return the schema of a type that a model has."""
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         return _read_by(arguments[1:], READER_SCHEMAS) or _kind(arguments[0])
@@ -169,14 +169,14 @@ def _kind(annotation: Any) -> Schema:  # noqa: ANN401 - a type, of any kind
     if origin is list:
         return {"type": "array", "items": _kind(arguments[0])}
     if origin in (Union, UnionType):
-        return {"anyOf": [_kind(each) for each in arguments]}
+        return {"anyOf": [_kind(argument) for argument in arguments]}
     if isinstance(annotation, type) and issubclass(annotation, Part):
         return _part(annotation)
     return TYPE_SCHEMAS[annotation]
 
 
 def _mapping(key: Any, value: Any) -> Schema:  # noqa: ANN401 - types, of any kind
-    """Return a mapping from names of the spec's own; nothing written is an empty one."""
+    """Return the schema of a mapping whose keys are names that the spec defines; it may be left empty."""
     name = _read_by(get_args(key)[1:], NAME_SCHEMAS)
     return {
         "type": ["object", "null"],
@@ -187,9 +187,9 @@ def _mapping(key: Any, value: Any) -> Schema:  # noqa: ANN401 - types, of any ki
 
 
 def _read_by(validators: Iterable[object], readers: Mapping[object, Schema]) -> Schema | None:
-    """Return what the functions that read a value take."""
-    functions = (getattr(each, "func", None) for each in validators)
-    return next((readers[each] for each in functions if each in readers), None)
+    """Return the schema of the values that the first validator found in `readers` takes, or None."""
+    functions = (getattr(validator, "func", None) for validator in validators)
+    return next((readers[function] for function in functions if function in readers), None)
 
 
 TYPE_SCHEMAS: Mapping[object, Schema] = {
@@ -219,4 +219,4 @@ KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
     (view.View, "area"): CORNERS_SCHEMA,
     (view.View, "marks"): {**_mapping(field_types.NameText, str), "additionalProperties": PLACE_SCHEMA},
 }
-"""Keys whose values are not what their type says: the model makes one of several ways to write them."""
+"""Keys that take more than their type says: the model accepts several ways to write their values."""

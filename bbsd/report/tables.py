@@ -1,4 +1,4 @@
-"""Closing tables of commands, for rich to print. Texts from specs are rich texts, never markup."""
+"""Tables of results, printed by rich. Names from specs are printed as they are, never read as markup."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ INTERVAL = "95 % interval"
 
 
 def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> RenderableType:
-    """Return the return with its interval, what each reward term gave, and who was in control.
+    """Return tables of the return with its interval, of the reward terms, and of the behaviors in control.
 
-    Bars are made of block characters, or of ASCII where the output has none.
+    Bars are made of block characters if the output has them, else of ASCII.
     """
     parts: list[RenderableType] = [
         Group(_return(evaluation), _basis(evaluation)),
@@ -43,24 +43,24 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
 
 
 def design_table(designed: Designed) -> RenderableType:
-    """Return the structure from top to bottom, and the design's fitness beside that of random agents."""
+    """Return tables of the structure, highest layer first, and of the design's fitness and that of random agents."""
     path = escape(str(designed.architecture))
-    # A path is copied as a whole, so no terminal is too narrow for it.
+    # People copy the path, so it is never broken into lines.
     where = Text(f"{path}, designed in {duration(designed.seconds)}", no_wrap=True, overflow="ignore")
     return Group(*_separated([_structure(designed.structure), _fitness(designed), where]))
 
 
 def _separated(parts: Sequence[RenderableType]) -> Iterable[RenderableType]:
-    for place, part in enumerate(parts):
-        if place:
+    for index, part in enumerate(parts):
+        if index:
             yield ""
         yield part
 
 
 def _table(*headings: str, right: Sequence[int] = ()) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
-    for place, heading in enumerate(headings):
-        table.add_column(Text(heading), justify="right" if place in right else "left", overflow="fold")
+    for index, heading in enumerate(headings):
+        table.add_column(Text(heading), justify="right" if index in right else "left", overflow="fold")
     return table
 
 
@@ -73,7 +73,7 @@ def _return(evaluation: Evaluation) -> Table:
 
 
 def _basis(evaluation: Evaluation) -> str:
-    """Return what the return was measured on."""
+    """Return the numbers of episodes, steps and agents that the return was measured on."""
     steps = count(round(evaluation.steps), "step")
     if not evaluation.steps.is_integer():
         steps = f"{evaluation.steps:.1f} steps on average"
@@ -84,7 +84,7 @@ def _basis(evaluation: Evaluation) -> str:
 
 
 def _reward_terms(evaluation: Evaluation) -> Table:
-    table = _table("reward term", "an episode", right=[1])
+    table = _table("reward term", "per episode", right=[1])
     values = column(list(evaluation.reward_terms.values()))
     for name, value in zip(evaluation.reward_terms, values, strict=True):
         table.add_row(Text(escape(name)), value)
@@ -92,7 +92,7 @@ def _reward_terms(evaluation: Evaluation) -> Table:
 
 
 def _control(evaluation: Evaluation, *, blocks: bool) -> Table:
-    table = _table("in control", "of the time", "", right=[1])
+    table = _table("in control", "share of time", "", right=[1])
     for name, share in evaluation.control_share.items():
         drawn = Text(bar(share, BAR_WIDTH, blocks=blocks), "dim" if name == "nobody" else "cyan")
         table.add_row(Text(escape(name)), percent(share), drawn)
@@ -119,21 +119,24 @@ def _not_finite(evaluation: Evaluation) -> Table:
 
 def _structure(structure: Sequence[str]) -> Table:
     table = _table("layer", "behavior", right=[0])
-    for place, name in enumerate(structure):
-        table.add_row(str(len(structure) - place), Text(escape(name)))
+    for index, name in enumerate(structure):
+        table.add_row(str(len(structure) - index), Text(escape(name)))
     return table
 
 
 def _fitness(designed: Designed) -> Table:
-    """All numbers have the same decimals, so that they can be compared at a glance."""
+    """Return the table of fitness; all its numbers have the same decimals, to compare them at a glance."""
     rows = {
-        "fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "fresh episode")),
-        "lifetime fitness": (designed.lifetime, f"{count(designed.lifetime.count, 'agent')} born with it"),
+        "fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode")),
+        "lifetime fitness": (designed.lifetime, count(designed.lifetime.count, "lifetime")),
         "random agents": (designed.random, count(designed.random.count, "agent")),
     }
-    texts = column([value for each, _ in rows.values() for value in (each.mean, each.low, each.high)])
+    intervals = [interval for interval, _ in rows.values()]
+    texts = column(
+        [value for interval in intervals for value in (interval.mean, interval.low, interval.high)]
+    )
     table = _table("", "mean return", INTERVAL, "", right=[1])
-    for place, (name, (_, basis)) in enumerate(rows.items()):
-        mean, low, high = texts[3 * place : 3 * place + 3]
-        table.add_row(name, Text(mean, "" if place else "bold"), f"{low} to {high}", basis)
+    for index, (name, (_, basis)) in enumerate(rows.items()):
+        mean, low, high = texts[3 * index : 3 * index + 3]
+        table.add_row(name, Text(mean, "" if index else "bold"), f"{low} to {high}", basis)
     return table

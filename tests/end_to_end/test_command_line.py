@@ -243,7 +243,7 @@ def test_a_stopped_design_says_how_to_go_on(tmp_path):
     assert first.startswith("generation 50/500")
     assert (running.returncode, out) == (130, "")
     resumed = ["bbsd", *words, "--out", "runs/thermostat-seed0", "--resume"]
-    assert err.splitlines()[-1].endswith("To go on: " + " ".join(resumed))
+    assert err.splitlines()[-1].endswith("To continue: " + " ".join(resumed))
     code, out, err = bbsd(*resumed[1:], cwd=tmp_path)
     assert code == 0
     assert "generation 500/500" in err
@@ -307,7 +307,9 @@ def test_a_design_can_be_held_to_its_expectations(tmp_path, share, code):
     assert found == code
     assert "climb            50.0 %" in out
     assert "never in control" in out
-    assert err == ("bbsd: what climb expects held in 0.5 of its steps, below 0.51 by 0.01\n" if code else "")
+    assert err == (
+        "bbsd: the expectation of climb held in 0.5 of its steps, below 0.51 by 0.01\n" if code else ""
+    )
 
 
 def test_expectations_are_told_of_in_every_form(tmp_path):
@@ -326,7 +328,7 @@ def test_expectations_are_told_of_in_every_form(tmp_path):
 def test_nothing_can_be_required_where_nothing_is_expected(designed):
     code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", "--expect-at-least", 0.5)
     assert (code, out) == (2, "")
-    assert "no behavior of this spec expects anything" in err
+    assert "no behavior of this spec has an expectation" in err
 
 
 def test_holes_are_not_measured_unless_they_are_filled():

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.cli.design import _resuming
+from bbsd.cli.design import _resume_command
 
 
 @pytest.mark.parametrize(
@@ -19,4 +19,4 @@ from bbsd.cli.design import _resuming
 )
 def test_a_stopped_command_is_gone_on_with_in_its_folder(monkeypatch, given, command):
     monkeypatch.setattr(sys, "argv", ["bbsd", *given.split()])
-    assert _resuming(Path("my runs/a")) == command
+    assert _resume_command(Path("my runs/a")) == command

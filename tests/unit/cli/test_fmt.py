@@ -23,14 +23,14 @@ def text(name):
 def test_files_are_put_in_the_style(capsys):
     assert run("fmt", "untidy.yaml", "tidy.yaml") == 0
     assert text("untidy.yaml") == text("tidy.yaml") == TIDY
-    assert capsys.readouterr() == ("", "untidy.yaml is in the style now\n")
+    assert capsys.readouterr() == ("", "formatted untidy.yaml\n")
 
 
 def test_check_writes_nothing_and_leaves_with_1(capsys):
     assert run("fmt", "--check", "tidy.yaml") == 0
     assert run("fmt", "--check", "untidy.yaml", "tidy.yaml") == 1
     assert text("untidy.yaml") == UNTIDY
-    assert capsys.readouterr() == ("", "untidy.yaml is not in the style\n")
+    assert capsys.readouterr() == ("", "untidy.yaml is not formatted\n")
 
 
 def test_diff_writes_nothing_and_shows_what_would_change(capsys):

@@ -24,7 +24,7 @@ def test_a_new_spec_is_the_template_with_its_own_name(template, capsys):
     expected = template_text(template).replace(f"name: {template.replace('_', '-')}\n", "name: my_robot\n")
     assert Path("my_robot.yaml").read_text(encoding="utf-8") == expected
     assert load(Source.read("my_robot.yaml")).spec.name == "my_robot"
-    assert capsys.readouterr() == ("", "my_robot.yaml is there; next: bbsd design my_robot.yaml\n")
+    assert capsys.readouterr() == ("", "wrote my_robot.yaml; next: bbsd design my_robot.yaml\n")
 
 
 def test_the_schema_is_put_beside_it_and_not_overwritten():
@@ -40,7 +40,7 @@ def test_nothing_is_overwritten(capsys):
     Path("mine.yaml").write_text("mine", encoding="utf-8")
     assert run("new", "mine") == 2
     assert Path("mine.yaml").read_text(encoding="utf-8") == "mine"
-    assert "mine.yaml is there already" in capsys.readouterr().err
+    assert "mine.yaml already exists" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["no", "a: b", "1", "x" * 120])

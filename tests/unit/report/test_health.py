@@ -9,11 +9,11 @@ from bbsd.report import health
 
 
 def finding(name):
-    return next(each for each in health.findings() if each.name == name)
+    return next(each for each in health.examine() if each.name == name)
 
 
 def test_nothing_is_wrong_here():
-    assert [each for each in health.findings() if each.problem] == []
+    assert [finding for finding in health.examine() if finding.problem] == []
 
 
 def test_nothing_is_compiled(monkeypatch):
@@ -22,12 +22,12 @@ def test_nothing_is_compiled(monkeypatch):
 
 
 def test_another_result_than_everywhere_is_wrong(monkeypatch):
-    monkeypatch.setattr(health, "KNOWN_RETURN", "0x1.0p+0")
+    monkeypatch.setattr(health, "SELF_CHECK_RETURN", "0x1.0p+0")
     assert "0x1.0p+0" in finding("self-check").problem
 
 
 def test_a_self_check_that_fails_is_told_of(monkeypatch):
-    monkeypatch.setattr(health, "KNOWN_SPEC", "bbsd: 2\n")
+    monkeypatch.setattr(health, "SELF_CHECK_SPEC", "bbsd: 2\n")
     assert finding("self-check").problem.startswith("SpecError")
 
 

@@ -15,7 +15,7 @@ SPECS = Path(__file__).parents[3] / "specs"
     ("name", "overrides", "expected"),
     [
         ("object_lifting", [], "5 behaviors, 21 open cells, 5 open layers, search space 10^8.4"),
-        ("object_lifting_hand", [], "5 behaviors, nothing open"),
+        ("object_lifting_hand", [], "5 behaviors, no holes"),
         ("object_lifting_hand", ["structure=null"], "5 behaviors, 5 open layers, search space 10^2.1"),
         (
             "object_lifting_hand",
