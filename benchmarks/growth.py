@@ -118,10 +118,10 @@ def lives(size: Size) -> Callable[[], object]:
     """The lives of one generation."""
     design = f"design: {{learning: {{episodes: {size.episodes}, last: 1}}}}\n"
     problem = replace(compiled(text_of(size.shape) + design), jobs=size.jobs)
-    learning = settings_of(problem.meaning).learning
+    settings = settings_of(problem.meaning)
     agents = random_agents(problem, KEY, POPULATION)[np.arange(size.agents) % POPULATION]
     streams = keys(KEY, 0, size.agents)
-    return lambda: run_lifetimes(problem, agents, streams, 1, learning)
+    return lambda: run_lifetimes(problem, agents, streams, 1, settings)
 
 
 def exponent(sizes: tuple[int, ...], times: Floats) -> float:

@@ -124,7 +124,7 @@ def _tables(problem: Problem) -> tuple[TablePrice, ...]:
 
 def _lifetimes(settings: Settings) -> int:
     """Return the episodes of one generation."""
-    return settings.coevolution.agents * settings.learning.lifetime
+    return settings.coevolution.agents * settings.learning.episodes
 
 
 def _raced(settings: Settings) -> int:
@@ -142,7 +142,7 @@ def _bytes(problem: Problem, settings: Settings) -> int:
     cells = sum(table.n_cells for table in problem.tables)
     n_layers, n_behaviors = len(problem.layers), problem.n_behaviors
     evolved, learning = settings.coevolution, settings.learning
-    agent = NUMBER * (learning.lifetime + 2 * n_layers * n_behaviors + n_layers + 5 * n_behaviors)
+    agent = NUMBER * (learning.episodes + 2 * n_layers * n_behaviors + n_layers + 5 * n_behaviors)
     champions = settings.answer.candidates * cells
     generation = 3 * cells * (evolved.population + evolved.agents) + evolved.agents * agent + 2 * champions
     race = champions + settings.answer.candidates * NUMBER * RACED

@@ -1,9 +1,8 @@
-"""A run in the smallest, so that everything it calls is compiled."""
+"""A run as small as possible, so that everything a run calls is compiled."""
 
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.evaluation import RewardNotFinite
@@ -17,32 +16,22 @@ if TYPE_CHECKING:
 REHEARSAL = name_word("rehearsal")
 AGENTS = 2
 EPISODES = 2
-"""The first is lived with the structure an agent is born with, the others with one that was searched for."""
+"""The structure of the first is given to an agent, that of the second is searched for."""
 GENERATIONS = 2
-"""The first begins with random pools, the others with bred ones."""
+"""The first begins with random pools, the second with children."""
 
 
 def rehearse(problem: Problem, settings: Settings) -> None:
-    """Call once whatever a run's generations compile. A reward that is not finite is left for the run to find."""
-    small = in_the_smallest(settings)
+    """Call everything that a run's generations compile. A reward that is not finite is left for the run to find."""
+    small = smallest(settings)
     state = initial_state(problem, small, REHEARSAL)
     with suppress(RewardNotFinite):
         for _ in range(min(GENERATIONS, settings.coevolution.generations)):
             state, _ = next_generation(state, problem, small, REHEARSAL)
 
 
-def in_the_smallest(settings: Settings) -> Settings:
-    """The same settings for a few agents that live short lives."""
-    evolved, learning = settings.coevolution, settings.learning
-    population = min(AGENTS, evolved.population)
-    lifetime = min(EPISODES, learning.lifetime)
-    return replace(
-        settings,
-        coevolution=replace(
-            evolved,
-            population=population,
-            agents=min(AGENTS, evolved.agents),
-            elites=min(evolved.elites, population - 1),
-        ),
-        learning=replace(learning, lifetime=lifetime, last=min(learning.last, lifetime)),
-    )
+def smallest(settings: Settings) -> Settings:
+    """Return the settings for the smallest pools, agents and lifetimes in which everything happens."""
+    population = min(AGENTS, settings.coevolution.population)
+    elites = min(settings.coevolution.elites, population - 1)
+    return settings.reduced(AGENTS, EPISODES, population=population, elites=elites)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
@@ -57,16 +57,16 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     """Live and breed as a run does, with more and more agents until it takes long enough to be measured."""
     first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
     state, _ = next_generation(
-        initial_state(problem, settings, key), problem, _cut(settings, FEW, SHORT), key
+        initial_state(problem, settings, key), problem, settings.reduced(FEW, SHORT), key
     )
 
     def seconds(n_agents: int, lifetime: int) -> float:
-        return _seconds(_generation, state, problem, _cut(settings, n_agents, lifetime), key)
+        return _seconds(_generation, state, problem, settings.reduced(n_agents, lifetime), key)
 
     breeding = seconds(FEW, SHORT)
     n_agents, lifetime = (
         min(problem.lanes, settings.coevolution.agents),
-        min(LONG, settings.learning.lifetime),
+        min(LONG, settings.learning.episodes),
     )
     while True:
         brief, began = seconds(n_agents, SHORT), perf_counter()
@@ -75,8 +75,8 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
             break
         if n_agents < settings.coevolution.agents:
             n_agents = min(4 * n_agents, settings.coevolution.agents)
-        elif lifetime < settings.learning.lifetime:
-            lifetime = min(4 * lifetime, settings.learning.lifetime)
+        elif lifetime < settings.learning.episodes:
+            lifetime = min(4 * lifetime, settings.learning.episodes)
         else:
             break
     lives = whole - brief if lifetime > SHORT else whole - breeding
@@ -85,17 +85,6 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     hastened = min(max(1.0, whole / clock), problem.jobs)
     newborn = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
     return Sample(max(0.0, first - second), breeding, agent, episode, newborn, hastened)
-
-
-def _cut(settings: Settings, n_agents: int, lifetime: int) -> Settings:
-    """The same settings for fewer agents that live shorter lives."""
-    evolved, learning = settings.coevolution, settings.learning
-    lifetime = min(lifetime, learning.lifetime)
-    return replace(
-        settings,
-        coevolution=replace(evolved, agents=n_agents),
-        learning=replace(learning, lifetime=lifetime, last=min(learning.last, lifetime)),
-    )
 
 
 def _seconds(what: Callable[..., object], *arguments: object) -> float:

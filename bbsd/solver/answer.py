@@ -1,4 +1,4 @@
-"""The final answer of a run: candidates, each different behavior once, and the race between them."""
+"""The answer of a run: the winner of a race between candidates that all behave differently."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ RACE = name_word("race")
 
 
 def answer(state: State, problem: Problem, settings: Settings, key: int) -> Architecture:
-    """The best of a run's candidates, found on episodes that no generation lived."""
+    """Return the best of a run's candidates, by a race on episodes that no generation had."""
     entrants = candidates(state, problem, settings)
     finish = race(problem, entrants, fold(key, RACE), settings.answer.episodes)
     return entrants[finish.winner]
 
 
 def candidates(state: State, problem: Problem, settings: Settings) -> list[Architecture]:
-    """The best individuals under every meme, then the champions; of those that behave alike only the first."""
+    """Return the best individuals under every meme, then the champions; of those that behave alike only the first."""
     best = tuple(
         pool[int(np.argmax(state.fitness[index, : len(pool)]))] for index, pool in enumerate(state.pools)
     )
@@ -40,9 +40,10 @@ def candidates(state: State, problem: Problem, settings: Settings) -> list[Archi
 
 
 def distinct(architectures: Iterable[Architecture], problem: Problem) -> list[Architecture]:
-    """Each different behavior once, by what controls in every cell of the joint input space."""
-    found: dict[bytes, Architecture] = {}
-    every = list(architectures)
-    for key, architecture in zip(behavior_keys(joint_space(problem.meaning), every), every, strict=True):
-        found.setdefault(key, architecture)
-    return list(found.values())
+    """Return the first of all designs that behave alike: the same controls in every cell of the joint input space."""
+    designs = list(architectures)
+    keys = behavior_keys(joint_space(problem.meaning), designs)
+    first: dict[bytes, Architecture] = {}
+    for key, design in zip(keys, designs, strict=True):
+        first.setdefault(key, design)
+    return list(first.values())

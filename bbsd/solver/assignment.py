@@ -16,7 +16,7 @@ NONE = -1
 
 @jit
 def assign(costs: NDArray[np.float64]) -> NDArray[np.int64]:
-    """A column for each row, no column twice, with the least sum of costs.
+    """Return a column for each row, no column twice, with the least sum of costs.
 
     Args:
         costs: (n_rows, n_columns), finite, n_rows <= n_columns.
@@ -28,7 +28,7 @@ def assign(costs: NDArray[np.float64]) -> NDArray[np.int64]:
     prices = np.zeros(n_columns)
     distances = np.empty(n_columns)
     owners = np.empty(n_columns, np.int64)  # the row that has each column
-    previous = np.empty(n_columns, np.int64)  # the column before each on its path
+    previous = np.empty(n_columns, np.int64)  # the column before each one on its path
     reached = np.empty(n_columns, np.bool_)
     for column in range(n_columns):
         owners[column] = NONE
@@ -55,11 +55,11 @@ def shortest_path(
     previous: NDArray[np.int64],
     reached: NDArray[np.bool_],
 ) -> int:
-    """The free column where the cheapest path ends on which the row displaces one owner after another.
+    """Return the free column at the end of the cheapest path on which the row displaces one owner after another.
 
     Args:
         costs: (n_rows, n_columns).
-        row: the row to be placed.
+        row: the row that gets a column.
         prices: (n_columns,), kept such that each owner has the column that is cheapest for it; changed.
         distances, previous, reached: (n_columns,), filled.
         owners: (n_columns,).

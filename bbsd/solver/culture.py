@@ -1,4 +1,4 @@
-"""The culture of the agents' society: a pool of memes, structures that were learned (V.C).
+"""The culture of the agents' society: a pool of memes, which are structures that were learned (V.C).
 
 Memes are drawn from the culture as it stood when the generation began, and the generation's structures are
 taken in when it ends, so the agents of a generation are independent.
@@ -18,7 +18,7 @@ from bbsd.solver.draws import below
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from bbsd.solver.settings import Enculturation
+    from bbsd.language.design import CultureSettings
 
 WHEEL, PLACE, ANY = range(3)  # the streams of one agent
 
@@ -35,12 +35,12 @@ class Culture:
 
 
 def empty_culture(n_layers: int) -> Culture:
-    """The culture before the first generation; no meme can be drawn from it."""
+    """Return the culture before the first generation; no meme can be drawn from it."""
     return Culture(np.empty((0, n_layers), np.int64), np.empty(0))
 
 
 def draw_memes(key: int, culture: Culture, n_agents: int, scaled: float) -> NDArray[np.int64]:
-    """A meme for each newborn agent: from the scaled roulette wheel with probability `scaled`, otherwise any.
+    """Draw a meme for each newborn agent: from the scaled roulette wheel with probability `scaled`, otherwise any.
 
     Args:
         key: the generation's stream for memes.
@@ -57,7 +57,7 @@ def draw_memes(key: int, culture: Culture, n_agents: int, scaled: float) -> NDAr
 
 
 def wheel(fitness: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where the memes' sectors end, (n_memes,): each f - min + 0.1 (max - min) wide, or all alike."""
+    """Return where the memes' sectors end, (n_memes,): each f - min + 0.1 (max - min) wide, or all equally wide."""
     low, high = fitness.min(), fitness.max()
     sectors = fitness - low + 0.1 * (high - low) if high > low else np.ones_like(fitness)
     return np.cumsum(sectors)
@@ -65,7 +65,7 @@ def wheel(fitness: NDArray[np.float64]) -> NDArray[np.float64]:
 
 @jit
 def spin(key: np.uint64, ends: NDArray[np.float64], scaled: float, chosen: NDArray[np.int64]) -> None:
-    """The index of each agent's meme, into `chosen` (n_agents,)."""
+    """Write the index of each agent's meme into `chosen` (n_agents,)."""
     for agent in range(len(chosen)):
         stream = fold(int(key), word_of(agent))
         if chance(stream, word_of(WHEEL), scaled):
@@ -79,9 +79,9 @@ def spin(key: np.uint64, ends: NDArray[np.float64], scaled: float, chosen: NDArr
 
 
 def take_in(
-    culture: Culture, structures: NDArray[np.int64], fitness: NDArray[np.float64], settings: Enculturation
+    culture: Culture, structures: NDArray[np.int64], fitness: NDArray[np.float64], settings: CultureSettings
 ) -> Culture:
-    """The culture after a generation, its agents' final structures taken in one after another.
+    """Return the culture after a generation: its agents' final structures are taken in one after another.
 
     Args:
         culture: as it stood when the generation began.
@@ -96,9 +96,13 @@ def take_in(
 
 
 def learn(
-    memes: list[list[int]], fitness: list[float], structure: list[int], value: float, settings: Enculturation
+    memes: list[list[int]],
+    fitness: list[float],
+    structure: list[int],
+    value: float,
+    settings: CultureSettings,
 ) -> None:
-    """Take in a structure: by (22) if it is known, else where there is room or a meme that is less fit."""
+    """Take in a structure: by (22) if the culture has it, else if there is room or a meme that is less fit."""
     if structure in memes:
         meme = memes.index(structure)
         fitness[meme] = (1.0 - settings.rate) * fitness[meme] + settings.rate * value

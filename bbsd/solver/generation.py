@@ -1,4 +1,4 @@
-"""One generation of Fig. 4, from the pools it starts with to what it leaves to the next."""
+"""The loop of Fig. 4: one generation, from the state that it begins with to the state that it leaves to the next."""
 
 from __future__ import annotations
 
@@ -24,29 +24,28 @@ if TYPE_CHECKING:
     from bbsd.compiler import Pool, Problem
     from bbsd.solver.settings import Settings
 
-POOLS, PAIRING, BIRTH, MEMES, LIVES, BREEDING = (
+POOLS, PAIRING, BIRTH, MEMES, LIFETIMES, BREEDING = (
     name_word(name) for name in ("pools", "pairing", "birth", "memes", "lives", "breeding")
 )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """All that a generation leaves behind, one plain value.
-
-    pools as they were lived with, fitness of their individuals (n_behaviors, largest population), the culture, and the
-    champions of all generations so far. Generation 0 is before the first.
-    """
+    """Everything that a generation leaves to the next. Generation 0 is the state before the first."""
 
     generation: int
     pools: tuple[Pool, ...]
+    """The pools of which this generation's agents were made."""
     fitness: NDArray[np.float64]
+    """The shared fitness of their individuals, (n_behaviors, largest population)."""
     culture: Culture
     champions: Champions
+    """The fittest agents of all generations so far."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Census:
-    """How the agents of one generation did: fitness (14) and lifetime fitness (n_agents,), final structures."""
+    """The agents of one generation: fitness (14) and lifetime fitness (n_agents,), and final structures."""
 
     fitness: NDArray[np.float64]
     lifetime_fitness: NDArray[np.float64]
@@ -56,7 +55,7 @@ class Census:
 def initial_state(problem: Problem, settings: Settings, key: int) -> State:
     """Initialize n different behavior pools and an empty culture.
 
-    A behavior without cells to be designed needs one individual.
+    A behavior without open cells gets a pool of one individual.
     """
     pools = tuple(
         random_pool(
@@ -73,9 +72,9 @@ def initial_state(problem: Problem, settings: Settings, key: int) -> State:
 
 
 def next_generation(state: State, problem: Problem, settings: Settings, run_key: int) -> tuple[State, Census]:
-    """Fig. 4, once around its loop.
+    """Go once around the loop of Fig. 4 and return the new state, and what the agents achieved.
 
-    The genetic operators come first here, since a state keeps the pools as they were lived with.
+    The genetic operators come first here, since a state keeps pools beside the fitness of their individuals.
     """
     generation = state.generation + 1
     key = fold(run_key, word_of(generation))
@@ -83,43 +82,42 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
     pools, expected = state.pools, [np.zeros(len(pool)) for pool in state.pools]
     if generation > 1:
         pools, expected = breed_pools(state, problem, settings, fold(key, BREEDING))
-    # Select n different behavior modules from each pool; select a meme T0, the initial structure.
-    who = members(fold(key, PAIRING), expected, settings.coevolution.agents, settings.coevolution.pairing)
-    agents = Agents(pools, who, initial_structures(state.culture, problem, settings, key, len(who)))
+    # Select n different behavior modules, one from each pool; select a meme, the initial structure.
+    chosen = members(fold(key, PAIRING), expected, settings.coevolution.agents, settings.coevolution.pairing)
+    structures = initial_structures(state.culture, problem, settings, key, len(chosen))
+    agents = Agents(pools, chosen, structures)
     # For a lifetime: choose T* (9), interact, receive reinforcement, update the values (13).
-    lives = run_lifetimes(
-        problem, agents, keys(fold(key, LIVES), 0, len(agents)), generation, settings.learning
-    )
+    streams = keys(fold(key, LIFETIMES), 0, len(agents))
+    lifetimes = run_lifetimes(problem, agents, streams, generation, settings)
     # Return fitness (14) and the final structure; share fitness to behaviors by (15) or (17).
-    fitness = sharing.agent_fitness(lives.returns, settings.learning.last)
-    shared = share(fitness, lives, who, settings)
+    fitness = sharing.agent_fitness(lifetimes.returns, settings.learning.last)
+    shared = share(fitness, lifetimes, chosen, settings)
     # Update the meme pool using T* and its fitness (22).
     culture = state.culture
     if settings.culture is not None:
-        culture = take_in(culture, lives.structures, fitness, settings.culture)
+        culture = take_in(culture, lifetimes.structures, fitness, settings.culture)
 
-    final = agents.with_structures(lives.structures)
-    champions = state.champions.joined(final, fitness)
-    census = Census(fitness, sharing.lifetime_fitness(lives.returns), lives.structures)
+    champions = state.champions.joined(agents.with_structures(lifetimes.structures), fitness)
+    census = Census(fitness, sharing.lifetime_fitness(lifetimes.returns), lifetimes.structures)
     return State(generation, pools, shared, culture, champions), census
 
 
 def initial_structures(
     culture: Culture, problem: Problem, settings: Settings, key: int, n_agents: int
 ) -> NDArray[np.int64]:
-    """The structures that agents are born with: memes where there are any, else random ones."""
+    """Return the structure of each newborn agent: a meme where there is any, else a random one."""
     if settings.culture is not None and len(culture):
         return draw_memes(fold(key, MEMES), culture, n_agents, settings.culture.scaled)
     return random_structures(keys(fold(key, BIRTH), 0, n_agents), problem.layers, problem.candidates)
 
 
 def share(
-    fitness: NDArray[np.float64], lives: Lifetimes, who: NDArray[np.int64], settings: Settings
+    fitness: NDArray[np.float64], lifetimes: Lifetimes, members: NDArray[np.int64], settings: Settings
 ) -> NDArray[np.float64]:
-    """The fitness of individuals (n_behaviors, population) by the sharing policy."""
+    """Return the fitness of individuals (n_behaviors, population) by the sharing policy."""
     if settings.sharing == "uniform":
-        return sharing.uniform(fitness, who, settings.coevolution.population)
-    return sharing.value_based(lives.values, who, settings.coevolution.population)
+        return sharing.uniform(fitness, members, settings.coevolution.population)
+    return sharing.value_based(lifetimes.values, members, settings.coevolution.population)
 
 
 def breed_pools(
@@ -129,7 +127,7 @@ def breed_pools(
 
     Returns the pools, and the fitness expected of their individuals, (population,) each.
     """
-    breeding = settings.coevolution.breeding(state.generation)
+    breeding = settings.breeding(state.generation)
     pools: list[Pool] = []
     expected = []
     for index, (pool, table) in enumerate(zip(state.pools, problem.tables, strict=True)):

@@ -7,7 +7,7 @@ change.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,16 +18,31 @@ from bbsd.solver.draws import below
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from bbsd.solver.settings import Breeding
-
 OPEN_CELL = 255
 
 FIRST_PARENT, SECOND_PARENT, MASK, HARD, RANDOM_TABLE, SOFT = range(6)  # the streams of one child
 WHETHER, WHICH = range(2)  # the streams of one cell
 
 
+class Breeding(NamedTuple):
+    """The settings of the genetic operators in one generation (V.B.2), for compiled code."""
+
+    tournament: int
+    """Individuals that compete to be a parent."""
+    elites: int
+    """Fittest individuals that are copied unchanged."""
+    crossover: float
+    """p_c, the probability that a cell comes from the first parent."""
+    children: int
+    """Of a pair of parents: 1, or 2 with complementary masks."""
+    hard_mutation: float
+    """p_hard, of a child."""
+    soft_mutation: float
+    """p_soft, of a cell."""
+
+
 def random_pool(key: int, population: int, given: NDArray[np.uint8], n_actions: int) -> NDArray[np.uint8]:
-    """Tables drawn uniformly from all that agree with the given cells.
+    """Return tables drawn uniformly from all that agree with the given cells.
 
     Returns:
         (population, n_cells).
@@ -45,7 +60,7 @@ def next_pool(
     given: NDArray[np.uint8],
     breeding: Breeding,
 ) -> NDArray[np.uint8]:
-    """The next generation of one pool: the fittest unchanged in the first slots, then children.
+    """Return the next generation of one pool: the fittest unchanged in the first slots, then children.
 
     Args:
         key: the stream of this pool in this generation.
@@ -61,28 +76,15 @@ def next_pool(
     elites = np.argsort(-fitness, kind="stable")[: breeding.elites]
     children = np.empty_like(pool)
     children[: len(elites)] = pool[elites]
-    breed(
-        np.uint64(key),
-        pool,
-        fitness,
-        n_actions,
-        given,
-        len(elites),
-        breeding.tournament,
-        breeding.crossover,
-        breeding.children,
-        breeding.hard_mutation,
-        breeding.soft_mutation,
-        children,
-    )
+    breed(np.uint64(key), pool, fitness, n_actions, given, breeding, children)
     return children
 
 
 def expected_fitness(key: int, fitness: NDArray[np.float64], breeding: Breeding) -> NDArray[np.float64]:
-    """What is expected of the individuals that `next_pool` makes of the same key.
+    """Return the fitness expected of each individual that `next_pool` makes from the same key, (population,).
 
-    An elite's own fitness, a child's parents' mean; individuals that took part in no agent count as the worst.
-    Arguments as of `next_pool`; returns (population,).
+    It is an elite's own fitness, or the mean of a child's parents; an individual that took part in no agent counts as
+    the worst. Arguments as of `next_pool`.
     """
     known = np.where(
         np.isfinite(fitness), fitness, np.min(fitness, where=np.isfinite(fitness), initial=np.inf)
@@ -90,7 +92,7 @@ def expected_fitness(key: int, fitness: NDArray[np.float64], breeding: Breeding)
     elites = np.argsort(-fitness, kind="stable")[: breeding.elites]
     expected = np.empty_like(fitness)
     expected[: len(elites)] = known[elites]
-    expect(np.uint64(key), fitness, known, len(elites), breeding.tournament, breeding.children, expected)
+    expect(np.uint64(key), fitness, known, breeding, expected)
     return expected
 
 
@@ -99,22 +101,21 @@ def expect(
     key: np.uint64,
     fitness: NDArray[np.float64],
     known: NDArray[np.float64],
-    n_elites: int,
-    n_entrants: int,
-    n_siblings: int,
+    breeding: Breeding,
     expected: NDArray[np.float64],
 ) -> None:
-    """The mean of the parents that `breed` chooses with the same key, for each child."""
-    for slot in range(n_elites, len(expected)):
-        family = fold(int(key), word_of(slot - (slot - n_elites) % n_siblings))
-        first = tournament(fold(family, word_of(FIRST_PARENT)), fitness, n_entrants)
-        second = tournament(fold(family, word_of(SECOND_PARENT)), fitness, n_entrants)
+    """Write into `expected`, for each child, the mean fitness of the parents that `breed` chooses by the same key."""
+    for slot in range(breeding.elites, len(expected)):
+        sibling = (slot - breeding.elites) % breeding.children
+        family = fold(int(key), word_of(slot - sibling))
+        first = tournament(fold(family, word_of(FIRST_PARENT)), fitness, breeding.tournament)
+        second = tournament(fold(family, word_of(SECOND_PARENT)), fitness, breeding.tournament)
         expected[slot] = (known[first] + known[second]) / 2.0
 
 
 @jit
 def fill(key: np.uint64, pool: NDArray[np.uint8], given: NDArray[np.uint8], n_actions: int) -> None:
-    """Draw every open cell of every individual."""
+    """Draw every open cell of every individual of `pool`, in place."""
     for individual in range(len(pool)):
         redraw(fold(int(key), word_of(individual)), pool[individual], given, n_actions, 1.0)
 
@@ -126,33 +127,28 @@ def breed(
     fitness: NDArray[np.float64],
     n_actions: int,
     given: NDArray[np.uint8],
-    n_elites: int,
-    n_entrants: int,
-    p_crossover: float,
-    n_siblings: int,
-    p_hard: float,
-    p_soft: float,
+    breeding: Breeding,
     children: NDArray[np.uint8],
 ) -> None:
-    """Selection, crossover and mutation for each of `children` (population, n_cells) after the elites."""
-    for slot in range(n_elites, len(children)):
+    """Apply selection, crossover and mutation for each of `children` (population, n_cells) after the elites."""
+    for slot in range(breeding.elites, len(children)):
         stream = fold(int(key), word_of(slot))
         child = children[slot]
-        place = (slot - n_elites) % n_siblings
-        family = fold(int(key), word_of(slot - place))
-        first = tournament(fold(family, word_of(FIRST_PARENT)), fitness, n_entrants)
-        second = tournament(fold(family, word_of(SECOND_PARENT)), fitness, n_entrants)
-        if place == 1:  # the second child has the complement of the mask
+        sibling = (slot - breeding.elites) % breeding.children
+        family = fold(int(key), word_of(slot - sibling))
+        first = tournament(fold(family, word_of(FIRST_PARENT)), fitness, breeding.tournament)
+        second = tournament(fold(family, word_of(SECOND_PARENT)), fitness, breeding.tournament)
+        if sibling == 1:  # the second child has the complement of the mask
             first, second = second, first
-        crossover(fold(family, word_of(MASK)), pool[first], pool[second], p_crossover, child)
-        if chance(stream, word_of(HARD), p_hard):
+        crossover(fold(family, word_of(MASK)), pool[first], pool[second], breeding.crossover, child)
+        if chance(stream, word_of(HARD), breeding.hard_mutation):
             redraw(fold(stream, word_of(RANDOM_TABLE)), child, given, n_actions, 1.0)
-        redraw(fold(stream, word_of(SOFT)), child, given, n_actions, p_soft)
+        redraw(fold(stream, word_of(SOFT)), child, given, n_actions, breeding.soft_mutation)
 
 
 @jit
 def tournament(key: int, fitness: NDArray[np.float64], n_entrants: int) -> int:
-    """The fittest of individuals drawn with replacement; of equals the one with the lowest index."""
+    """Return the fittest of individuals drawn with replacement; of equals the one with the lowest index."""
     winner = below(fold(int(key), word_of(0)), len(fitness))
     for entrant in range(1, n_entrants):
         rival = below(fold(int(key), word_of(entrant)), len(fitness))
@@ -163,7 +159,7 @@ def tournament(key: int, fitness: NDArray[np.float64], n_entrants: int) -> int:
 
 @jit
 def cross(x: int, a: int, b: int) -> int:
-    """(19), of a cell or of whole tables: a where the mask x is 1, b where it is 0."""
+    """Return (19) for a cell or for whole tables: a where the mask x is 1, b where it is 0."""
     return x * a + (1 - x) * b
 
 
@@ -171,7 +167,7 @@ def cross(x: int, a: int, b: int) -> int:
 def crossover(
     key: int, first: NDArray[np.uint8], second: NDArray[np.uint8], p_first: float, child: NDArray[np.uint8]
 ) -> None:
-    """(19) with a mask X of Bernoulli(p_c) cells, into `child`; all tables (n_cells,)."""
+    """Write into `child` (19) with a mask X of Bernoulli(p_c) cells; all tables (n_cells,)."""
     for cell in range(len(child)):
         x = int(chance(int(key), word_of(cell), p_first))
         child[cell] = cross(x, first[cell], second[cell])

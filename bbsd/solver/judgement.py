@@ -72,5 +72,5 @@ def _lifetime_fitness(best: Architecture, problem: Problem, settings: Settings, 
     n_agents = settings.coevolution.agents
     agents = agents_of([best])[np.zeros(n_agents, np.int64)]
     streams = keys(fold(key, LIFETIMES), 0, n_agents)
-    lifetimes = run_lifetimes(problem, agents, streams, settings.coevolution.generations, settings.learning)
+    lifetimes = run_lifetimes(problem, agents, streams, settings.coevolution.generations, settings)
     return interval(row_means(lifetimes.returns))

@@ -1,7 +1,4 @@
-"""A lifetime (V.A): before each episode the agent chooses a structure.
-
-After it the agent learns what that was worth.
-"""
+"""A lifetime (V.A): before each episode an agent chooses a structure, after it the agent learns what it was worth."""
 
 from __future__ import annotations
 
@@ -10,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.compiler import DetailedOutcome
 from bbsd.evaluation import require_finite
 from bbsd.kernel.keys import folded, units
 from bbsd.kernel.streams import name_word
-from bbsd.solver.estimates import no_counters
-from bbsd.solver.structures import random_structures, search_exact, search_sampled, update_values
+from bbsd.solver.estimates import no_experience
+from bbsd.solver.structures import random_structures, search_exact, search_sampled
 from bbsd.stopping import raise_if_stopped
 
 if TYPE_CHECKING:
@@ -23,7 +19,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler import Problem
     from bbsd.evaluation import Agents
-    from bbsd.solver.settings import Learning
+    from bbsd.solver.settings import Settings
 
 EPISODE, SEARCH, EXPLORE = name_word("episode"), name_word("search"), name_word("explore")
 WHETHER = name_word("whether")
@@ -31,9 +27,10 @@ WHETHER = name_word("whether")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lifetimes:
-    """What lifetimes left behind: returns (n_agents.
+    """What the lifetimes of agents leave behind.
 
-    N_episodes), final structures, Ṽ (n_agents, n_layers, n_behaviors).
+    returns (n_agents, n_episodes), structures of the last episode (n_agents, n_layers), values Ṽ at the end (n_agents,
+    n_layers, n_behaviors).
     """
 
     returns: NDArray[np.float64]
@@ -42,41 +39,34 @@ class Lifetimes:
 
 
 def run_lifetimes(
-    problem: Problem, agents: Agents, keys: NDArray[np.uint64], generation: int, learning: Learning
+    problem: Problem, agents: Agents, keys: NDArray[np.uint64], generation: int, settings: Settings
 ) -> Lifetimes:
-    """Let agents live side by side, each in the streams of its own key.
+    """Run the lifetimes of agents side by side, each with the random streams of its own key (n_agents,).
 
-    The first episode is lived with the structure an agent is born with; the one returned is the last episode's.
+    In the first episode an agent has the structure that it was given.
     """
     team = problem.assemble(agents.pools, agents.members, generation)
     structures = agents.structures
-    values = np.zeros((len(agents), structures.shape[1], problem.n_behaviors))
-    counters = no_counters(*values.shape) if learning.estimate == "counters" else None
-    returns = np.empty((len(agents), learning.lifetime))
+    estimate = no_experience(settings.learning.estimate, (*structures.shape, problem.n_behaviors))
+    returns = np.empty((len(agents), settings.learning.episodes))
     episodes, searches, explorations = (folded(keys, purpose) for purpose in (EPISODE, SEARCH, EXPLORE))
-    for episode in range(1, learning.lifetime + 1):
+    # For a lifetime do
+    for episode in range(1, settings.learning.episodes + 1):
         raise_if_stopped()
-        if learning.learned and episode > 1:
-            structures = choose(problem, folded(searches, episode), values, structures, learning)
-            structures = explore(problem, explorations, structures, learning, episode)
+        # Select the architecture T* that maximizes (9); skip if it is fixed.
+        if settings.learned and episode > 1:
+            structures = choose(problem, folded(searches, episode), estimate.values, structures, settings)
+            structures = explore(problem, explorations, structures, settings, episode)
+        # Let the agent interact with the environment, receive reinforcement.
         streams = folded(episodes, episode)
-        outcome = (
-            team.episode(streams, structures)
-            if counters is None
-            else team.detailed_episode(streams, structures)
-        )
+        outcome = estimate.run_episode(team, streams, structures)
+        present = agents.with_structures(structures)
         where = f"generation {generation}, episode {episode}"
-        require_finite(
-            problem, agents.with_structures(structures), streams, outcome.returns, generation, where
-        )
-        rate = float(learning.rate[episode - 1])
-        if isinstance(outcome, DetailedOutcome) and counters is not None:
-            counters.update(structures, outcome.credit, outcome.control, rate)
-            values = counters.joint()
-        else:
-            update_values(values, structures, outcome.credit, rate)
+        require_finite(problem, present, streams, outcome.returns, generation, where)
         returns[:, episode - 1] = outcome.returns
-    return Lifetimes(returns, structures, values)
+        # Update the estimates, (13), by the learning rate of the episode.
+        estimate.update(structures, outcome, settings.rates.learning[episode - 1])
+    return Lifetimes(returns, structures, estimate.values)
 
 
 def choose(
@@ -84,27 +74,28 @@ def choose(
     keys: NDArray[np.uint64],
     values: NDArray[np.float64],
     structures: NDArray[np.int64],
-    learning: Learning,
+    settings: Settings,
 ) -> NDArray[np.int64]:
-    """The architecture T* that maximizes (9) by what each agent has learned so far."""
-    if learning.search == "exact":
+    """Return the structure T* of each agent that maximizes (9) by the values it has learned, (n_agents, n_layers)."""
+    if settings.learning.search == "exact":
         return search_exact(values, structures, problem.layers, problem.candidates)
-    return search_sampled(keys, values, structures, problem.layers, problem.candidates, learning.candidates)
+    n_random = settings.learning.candidates
+    return search_sampled(keys, values, structures, problem.layers, problem.candidates, n_random)
 
 
 def explore(
     problem: Problem,
     keys: NDArray[np.uint64],
     structures: NDArray[np.int64],
-    learning: Learning,
+    settings: Settings,
     episode: int,
 ) -> NDArray[np.int64]:
-    """A random structure for some agents, with the probability of the episode, never in the last K episodes.
+    """Replace structures by random ones with the probability of the episode, but never in the last K episodes.
 
     The keys (n_agents,) are those of the agents' explorations in all episodes.
     """
-    probability = float(learning.exploration[episode - 1])
-    if probability == 0.0 or episode > learning.lifetime - learning.last:
+    probability = settings.rates.exploration[episode - 1]
+    if probability == 0.0 or episode > settings.learning.episodes - settings.learning.last:
         return structures
     streams = folded(keys, episode)
     explores = units(folded(streams, WHETHER)) < probability

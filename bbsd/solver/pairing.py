@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 def members(
     key: int, expected: Sequence[NDArray[np.float64]], n_agents: int, pairing: str = "balanced"
 ) -> NDArray[np.int64]:
-    """The individual of each pool that each agent is made of.
+    """Choose the individuals that each agent is made of, one from each pool.
 
     Args:
         key: the generation's stream for pairing.
         expected: for each pool, the fitness expected of its individuals, (population,).
-        n_agents: how many agents live in a generation.
-        pairing: balanced, random, or proportional to what is expected.
+        n_agents: how many agents a generation has.
+        pairing: balanced, random, or proportional to the fitness expected.
 
     Returns:
         (n_agents, n_behaviors).
@@ -46,14 +46,14 @@ def members(
 
 
 def spun(key: int, ends: NDArray[np.float64], n_agents: int) -> NDArray[np.int64]:
-    """For each agent the sector in which a roulette wheel stops, its sectors ending at `ends`; (n_agents,)."""
+    """Return for each agent the sector, of those that end at `ends`, in which a roulette wheel stops; (n_agents,)."""
     places = units(keys(key, 0, n_agents)) * ends[-1]
     chosen: NDArray[np.int64] = np.minimum(np.searchsorted(ends, places, side="right"), len(ends) - 1)
     return chosen
 
 
 def balanced(key: int, population: int, n_agents: int) -> NDArray[np.int64]:
-    """One pool's individual for each agent: how often two individuals are used differs by at most one.
+    """Choose one pool's individual for each agent: how often two individuals are used differs by at most one.
 
     Returns:
         (n_agents,).

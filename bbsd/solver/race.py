@@ -1,4 +1,4 @@
-"""The race: which of several designs is best, by paired comparison on common fresh episodes."""
+"""A race between designs: paired comparison on common fresh episodes."""
 
 from __future__ import annotations
 
@@ -21,27 +21,28 @@ if TYPE_CHECKING:
     from bbsd.compiler import Problem
 
 FIRST_ROUND = 100
-DOUBT = 4.0
-"""How many standard errors behind the leader a design is out of the race.
+"""Episodes of the first round."""
+MARGIN = 4.0
+"""Standard errors behind the leader at which a design is out of the race.
 
-One chance in 30 000, for many looks at many.
+One chance in 30,000 for each comparison, since many designs are compared in many rounds.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Finish:
-    """The winner's place among the entrants, the episodes it took, and how many were still in doubt at the end."""
+    """The index of the winner, the episodes it took, and how many designs might still be the best at the end."""
 
     winner: int
     episodes: int
-    in_doubt: int
+    undecided: int
 
 
 def race(problem: Problem, entrants: Sequence[Architecture], key: int, cap: int) -> Finish:
-    """Let designs run on the same episodes, in rounds that double, until the best is known or the cap is reached.
+    """Run designs on the same episodes, in rounds that double, until the best is known or the cap is reached.
 
-    Designs that earn the same in every episode of a round count as one, the first. What is left in doubt at
-    the cap is decided by the mean.
+    Designs that earn the same in every episode of a round count as one, the first. Where several are left at
+    the cap, the mean decides.
     """
     generation = problem.meaning.spec.design.coevolution.generations
     running = np.arange(len(entrants))
@@ -59,18 +60,18 @@ def race(problem: Problem, entrants: Sequence[Architecture], key: int, cap: int)
 
 
 def still_running(earned: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Who may still be the best, given the returns (n_designs, n_episodes) so far; always the leader."""
+    """Return the indices of designs that may still be the best by their returns (n_designs, n_episodes) so far."""
     leader = int(np.argmax(row_means(earned)))
     behind = earned[leader] - earned
-    errors = np.array([deviation(each) for each in behind]) / np.sqrt(earned.shape[1])
-    beaten = row_means(behind) > DOUBT * errors
+    errors = np.array([deviation(differences) for differences in behind]) / np.sqrt(earned.shape[1])
+    beaten = row_means(behind) > MARGIN * errors
     beaten |= _repeats(earned)
     beaten[leader] = False
     return np.flatnonzero(~beaten)
 
 
 def _repeats(earned: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Designs whose returns are, to the bit, those of one before them."""
+    """Tell which designs have, to the bit, the returns of one before them, (n_designs,)."""
     seen: set[bytes] = set()
     repeated = np.zeros(len(earned), np.bool_)
     for index, returns in enumerate(earned):

@@ -1,4 +1,4 @@
-"""Random agents of a spec's design space, with which every design is to be compared."""
+"""Random agents of a spec's design space, with which every design is compared."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TABLES, STRUCTURES = name_word("random tables"), name_word("random structures")
 
 
 def random_agents(problem: Problem, key: int, n_agents: int) -> Agents:
-    """Agents whose open cells and open layers are uniformly random; what the spec gives is kept."""
+    """Return agents whose open cells and open layers are uniformly random; what the spec gives is kept."""
     pools = tuple(
         random_pool(fold(fold(key, TABLES), word_of(index)), n_agents, table.given, table.n_actions)
         for index, table in enumerate(problem.tables)

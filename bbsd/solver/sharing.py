@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def agent_fitness(returns: NDArray[np.float64], last: int) -> NDArray[np.float64]:
-    """(14): each agent's mean return over its last K episodes.
+    """Return (14), each agent's mean return over its last K episodes.
 
     Args:
         returns: (n_agents, n_episodes).
@@ -29,12 +29,12 @@ def agent_fitness(returns: NDArray[np.float64], last: int) -> NDArray[np.float64
 
 
 def lifetime_fitness(returns: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Each agent's mean return over all its episodes; shapes as in `agent_fitness`."""
+    """Return each agent's mean return over all its episodes; shapes as in `agent_fitness`."""
     return agent_fitness(returns, returns.shape[1])
 
 
 def uniform(fitness: NDArray[np.float64], members: NDArray[np.int64], population: int) -> NDArray[np.float64]:
-    """(15): an individual's fitness is the mean fitness of the agents it took part in.
+    """Return individuals' fitness by (15): the mean fitness of the agents that each took part in.
 
     Args:
         fitness: the agents', (n_agents,).
@@ -50,7 +50,7 @@ def uniform(fitness: NDArray[np.float64], members: NDArray[np.int64], population
 def value_based(
     values: NDArray[np.float64], members: NDArray[np.int64], population: int
 ) -> NDArray[np.float64]:
-    """(17): an individual's fitness is the mean of its contributions to the agents it took part in.
+    """Return individuals' fitness by (17): the mean contribution to the agents that each took part in.
 
     Args:
         values: Ṽ at the end of the lifetimes, (n_agents, n_layers, n_behaviors).
@@ -64,14 +64,14 @@ def value_based(
 
 
 def contributions(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(16): each behavior's part in all layers, the sum of its column of Ṽ; (n_agents, n_behaviors)."""
+    """Return (16), what each behavior contributes in all layers: its sum of Ṽ; (n_agents, n_behaviors)."""
     return in_order(values.swapaxes(0, 1))
 
 
 def mean_of_agents(
     shares: NDArray[np.float64], members: NDArray[np.int64], population: int
 ) -> NDArray[np.float64]:
-    """The mean of the shares (n_agents, n_behaviors) that each individual got; (n_behaviors, population)."""
+    """Return the mean of each individual's shares (n_agents, n_behaviors); (n_behaviors, population)."""
     fitness = np.full((members.shape[1], population), -np.inf)
     for behavior, individuals in enumerate(members.T):
         counts = np.bincount(individuals, minlength=population)
@@ -81,7 +81,7 @@ def mean_of_agents(
 
 
 def in_order(terms: Iterable[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """The elementwise sum of arrays, first to last (`np.sum` chooses an order of its own)."""
+    """Return the elementwise sum of arrays, added first to last (`np.sum` chooses an order of its own)."""
     first, *others = terms
     total = first.copy()
     for term in others:

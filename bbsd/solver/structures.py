@@ -1,7 +1,7 @@
 """Structure learning in the zero-order representation (V.A): which behavior belongs in which layer.
 
 A structure is an int64 array (n_layers,) of behavior indices, lowest layer first as in (2). `layers` has the
-same shape: a behavior where the spec gives one, OPEN where it is to be learned. `candidates` are the
+same shape: a behavior where the spec gives one, OPEN where one is learned. `candidates` are the
 behaviors that may fill open layers. Ṽ of (12) is a float64 array (n_agents, n_layers, n_behaviors). Every
 agent draws from a key of its own.
 """
@@ -24,7 +24,7 @@ OPEN = -1
 
 
 def candidates_for(layers: NDArray[np.int64], n_behaviors: int) -> NDArray[np.int64]:
-    """The behaviors that may fill the open layers: those that no layer names, in ascending order.
+    """Return the behaviors that may fill the open layers: those that no layer names, in ascending order.
 
     Raises:
         ValueError: there are fewer of them than open layers.
@@ -38,7 +38,7 @@ def candidates_for(layers: NDArray[np.int64], n_behaviors: int) -> NDArray[np.in
 
 @jit
 def open_layers(layers: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The indices of the open layers, lowest first."""
+    """Return the indices of the open layers, lowest first."""
     holes = np.empty_like(layers)
     n_holes = 0
     for layer in range(len(layers)):
@@ -70,7 +70,7 @@ def lay_down(
 def value_of(
     hand: NDArray[np.int64], values: NDArray[np.float64], agent: int, holes: NDArray[np.int64]
 ) -> float:
-    """(9) by (12): the sum of Ṽ_ij over the open layers; given layers add the same to every structure."""
+    """Return (9) by (12), the sum of Ṽ_ij over the open layers; given layers add the same to every structure."""
     value = 0.0
     for hole in range(len(holes)):
         value += values[agent, holes[hole], hand[hole]]
@@ -81,7 +81,7 @@ def value_of(
 def random_structures(
     keys: NDArray[np.uint64], layers: NDArray[np.int64], candidates: NDArray[np.int64]
 ) -> NDArray[np.int64]:
-    """A structure for each agent, uniformly random in its open layers.
+    """Draw a structure for each agent, uniformly random in its open layers.
 
     Args:
         keys: (n_agents,).
@@ -113,7 +113,7 @@ def draw_swaps(
     streams: NDArray[np.uint64],
     swaps: NDArray[np.int64],
 ) -> None:
-    """With what each place is swapped when `shuffle` deals to it, in all samples at once: such loops vectorize.
+    """Draw which card `shuffle` swaps with each place, for all samples at once: such loops vectorize.
 
     Args:
         key: the agent's.
@@ -140,7 +140,7 @@ def search_sampled(
     candidates: NDArray[np.int64],
     n_random: int,
 ) -> NDArray[np.int64]:
-    """T* by simple stochastic search (V.A): the best sum of Ṽ_ij among the present structure and random ones.
+    """Find T* by simple stochastic search (V.A): the best sum of Ṽ_ij among the present structure and random ones.
 
     The present structure is replaced only by a strictly better one, so a meme survives Ṽ = 0.
 
@@ -150,7 +150,7 @@ def search_sampled(
         structures: the present ones, (n_agents, n_layers).
         layers: (n_layers,).
         candidates: (n_candidates,), at least as many as there are open layers.
-        n_random: K, how many random structures compete.
+        n_random: how many random structures compete.
 
     Returns:
         (n_agents, n_layers).
@@ -185,7 +185,7 @@ def search_exact(
     layers: NDArray[np.int64],
     candidates: NDArray[np.int64],
 ) -> NDArray[np.int64]:
-    """T* of (5) under (9) exactly: the assignment of candidates to open layers with the greatest sum of Ṽ_ij.
+    """Find T* of (5) under (9) exactly: the assignment of candidates to open layers with the greatest sum of Ṽ_ij.
 
     Shapes as in `search_sampled`, values finite; the present structure is kept on ties.
     """
@@ -204,25 +204,3 @@ def search_exact(
         if value_of(hand, values, agent, holes) > value_of(present, values, agent, holes):
             lay_down(hand, chosen, agent, holes)
     return chosen
-
-
-@jit
-def update_values(
-    values: NDArray[np.float64], structures: NDArray[np.int64], credit: NDArray[np.float64], rate: float
-) -> None:
-    """(13), once an episode, in place: pairs of the present structure move toward the episode's credit.
-
-    A behavior that did not control has credit 0, so its pair decays; pairs outside keep their value.
-
-    Args:
-        values: Ṽ, (n_agents, n_layers, n_behaviors), changed.
-        structures: (n_agents, n_layers).
-        credit: (n_agents, n_behaviors or more), reinforcement summed while each behavior controlled.
-        rate: α of the episode.
-    """
-    n_agents, n_layers = structures.shape
-    for agent in range(n_agents):
-        for layer in range(n_layers):
-            behavior = structures[agent, layer]
-            old = values[agent, layer, behavior]
-            values[agent, layer, behavior] = (1.0 - rate) * old + rate * credit[agent, behavior]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from bbsd.solver.settings import Learning, Settings
+    from bbsd.solver.settings import Settings
     from benchmarks.lifting import Floats
 
     Integers = npt.NDArray[np.int64]
@@ -77,7 +77,7 @@ def design(
         for index, pool in enumerate(pools):
             tables[:, index, : cells[index]] = np.array(pool, np.uint8)[members[:, index]]
         structures = born(culture, len(members), len(pools), settings, rng)
-        returns, structures, values = lifetimes(live, tables, structures, settings.learning, rng)
+        returns, structures, values = lifetimes(live, tables, structures, settings, rng)
         fitness = returns[:, -settings.learning.last :].mean(axis=1)
         share(pools, members, fitness, values, settings)
         for structure, value in zip(structures.tolist(), fitness.tolist(), strict=True):
@@ -103,7 +103,7 @@ def toolbox_for(settings: Settings) -> Any:  # noqa: ANN401 - DEAP is not typed
 
 def bred(pool: list[Any], toolbox: Any, settings: Settings, generation: int) -> list[Any]:  # noqa: ANN401
     """Selection, crossover, hard and soft mutation; the best stay."""
-    breeding = settings.coevolution.breeding(generation)
+    breeding = settings.breeding(generation)
     children = [toolbox.clone(best) for best in tools.selBest(pool, breeding.elites)]
     while len(children) < len(pool):
         child, other = map(toolbox.clone, toolbox.select(pool, 2))
@@ -145,19 +145,19 @@ def lifetimes(
     live: Live,
     tables: npt.NDArray[np.uint8],
     structures: Integers,
-    learning: Learning,
+    settings: Settings,
     rng: np.random.Generator,
 ) -> tuple[Floats, Integers, Floats]:
     """Returns (n_agents, n_episodes), final structures, the learned values (n_agents, n_layers, n_behaviors)."""
     n_agents, n_layers = structures.shape
     agents, layers = np.arange(n_agents)[:, None], np.arange(n_layers)
     values = np.zeros((n_agents, n_layers, tables.shape[1]))
-    returns = np.empty((n_agents, learning.lifetime))
-    for episode in range(1, learning.lifetime + 1):
+    returns = np.empty((n_agents, settings.learning.episodes))
+    for episode in range(1, settings.learning.episodes + 1):
         if episode > 1:
-            structures = searched(values, structures, learning.candidates, rng)
+            structures = searched(values, structures, settings.learning.candidates, rng)
         returns[:, episode - 1], credit = live(tables, structures, rng)
-        rate = learning.rate[episode - 1]
+        rate = settings.rates.learning[episode - 1]
         old = values[agents, layers, structures]
         values[agents, layers, structures] = (1 - rate) * old + rate * credit[agents, structures]
     return returns, structures, values

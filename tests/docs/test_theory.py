@@ -6,14 +6,12 @@ from importlib import import_module
 from math import sqrt
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from bbsd.architecture import Architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import trace
 from bbsd.language.loading import load
-from bbsd.solver.estimates import no_counters
 from bbsd.text import Source
 
 ROOT = Path(__file__).parents[2]
@@ -65,16 +63,6 @@ def test_every_equation_of_the_paper_has_a_row():
         r"^\| \((\d+)\) \|", (ROOT / "docs" / "theory.md").read_text(encoding="utf-8"), re.MULTILINE
     )
     assert [int(row) for row in rows] == list(range(1, 35))
-
-
-def test_values_and_probabilities_are_counted():
-    counters = no_counters(1, 2, 2)
-    counters.update(np.array([[0, 1]]), np.array([[6.0, 3.0, 1.0]]), np.array([[4.0, 6.0, 10.0]]), 0.5)
-    # (11) from 0 with rate 1/2: 6 / 4 / 2 = 0.75 and 3 / 6 / 2 = 0.25; (9): 4 and 6 of 20 steps
-    np.testing.assert_allclose(counters.joint(), [[[4 / 20 * 0.75, 0], [0, 6 / 20 * 0.25]]])
-    counters.update(np.array([[1, 0]]), np.array([[0.0, 8.0, 0.0]]), np.array([[0.0, 16.0, 4.0]]), 0.5)
-    # behavior 1, now in layer 0: 8 / 16 / 2 = 0.25; behavior 0 did not control; 40 steps by now
-    np.testing.assert_allclose(counters.joint(), [[[4 / 40 * 0.75, 16 / 40 * 0.25], [0, 6 / 40 * 0.25]]])
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.runs.rehearsal import in_the_smallest, rehearse
+from bbsd.runs.rehearsal import rehearse, smallest
 from bbsd.solver.settings import settings_of
 from tests.unit.problems import RICH, problem_of
 from tests.unit.solver.problems import guess
@@ -8,8 +8,8 @@ from tests.unit.solver.problems import guess
 
 def test_a_rehearsal_is_as_small_as_can_be():
     _, settings = guess()
-    small = in_the_smallest(settings)
-    assert (small.coevolution.population, small.coevolution.agents, small.learning.lifetime) == (2, 2, 2)
+    small = smallest(settings)
+    assert (small.coevolution.population, small.coevolution.agents, small.learning.episodes) == (2, 2, 2)
     assert small.coevolution.elites < small.coevolution.population
 
 

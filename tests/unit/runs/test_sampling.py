@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.runs.sampling import FEW, SHORT, Sample, _cut, sample
+from bbsd.runs.sampling import Sample, sample
 from tests.unit.solver.problems import guess
 
 
@@ -15,10 +15,3 @@ def test_all_that_a_generation_takes_is_measured(structure):
     assert min(taken.breeding, taken.episode, taken.newborn) > 0
     assert min(taken.compiling, taken.agent) >= 0
     assert taken.hastened == 1.0
-
-
-def test_fewer_agents_and_shorter_lives_leave_all_else_as_it_is():
-    _, settings = guess()
-    cut = _cut(settings, FEW, SHORT)
-    assert (cut.coevolution.agents, cut.learning.lifetime, cut.learning.last) == (2, 1, 1)
-    assert cut.coevolution.population == settings.coevolution.population

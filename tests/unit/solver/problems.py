@@ -1,6 +1,9 @@
 """Small problems to be designed, as plain Python."""
 
-from bbsd.solver.settings import Breeding, settings_of
+from dataclasses import replace
+
+from bbsd.solver.genetics import Breeding
+from bbsd.solver.settings import settings_of
 from tests.unit.problems import problem_of
 
 GUESS = """
@@ -35,3 +38,8 @@ def guess(structure="", sharing="uniform", search="sampled", culture="{size: 3}"
     text = GUESS.format(structure=structure, sharing=sharing, search=search, culture=culture)
     problem = problem_of(text, lanes=lanes, seed=seed)
     return problem, settings_of(problem.meaning)
+
+
+def learning(settings, **changed):
+    """The settings with other ones of a lifetime."""
+    return replace(settings, learning=settings.learning.model_copy(update=changed))

@@ -3,10 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bbsd.language.design import CultureSettings
 from bbsd.solver.culture import Culture, draw_memes, empty_culture, take_in, wheel
-from bbsd.solver.settings import Enculturation
 
-SETTINGS = Enculturation(size=2, rate=0.3, scaled=0.9)
+SETTINGS = CultureSettings(size=2, rate=0.3, scaled=0.9)
 A, B, C = [0, 1, 2], [2, 1, 0], [1, 0, 2]
 
 

@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -121,7 +119,7 @@ def test_random_pools_are_uniform_and_keep_given_cells():
 def test_elites_are_copied_unchanged_to_the_first_slots():
     pool = random_pool(3, 5, OPEN_TABLE, 2)
     fitness = np.array([1.0, 7.0, -np.inf, 7.0, 2.0])
-    children = next_pool(8, pool, fitness, 2, OPEN_TABLE, replace(BREEDING, elites=3, soft_mutation=1.0))
+    children = next_pool(8, pool, fitness, 2, OPEN_TABLE, BREEDING._replace(elites=3, soft_mutation=1.0))
     np.testing.assert_array_equal(children[:3], pool[[1, 3, 4]])  # equally fit: the lowest index first
 
 
@@ -134,7 +132,7 @@ def test_without_mutation_children_have_their_cells_from_the_pool():
 def test_hard_mutation_strikes_children_with_its_probability():
     n = 4000
     pool = np.full((n, 6), 200, np.uint8)
-    children = next_pool(8, pool, np.zeros(n), 100, OPEN_TABLE, replace(BREEDING, hard_mutation=0.1))
+    children = next_pool(8, pool, np.zeros(n), 100, OPEN_TABLE, BREEDING._replace(hard_mutation=0.1))
     struck = np.any(children != 200, axis=1)
     assert np.all(children[struck] <= 100)
     assert np.mean(struck) == pytest.approx(0.1, abs=5 * 0.0047)  # sqrt(0.1 * 0.9 / 4000)
@@ -143,7 +141,7 @@ def test_hard_mutation_strikes_children_with_its_probability():
 def test_soft_mutation_strikes_cells_with_its_probability():
     n = 4000
     pool = np.full((n, 6), 200, np.uint8)
-    children = next_pool(8, pool, np.zeros(n), 100, OPEN_TABLE, replace(BREEDING, soft_mutation=0.1))
+    children = next_pool(8, pool, np.zeros(n), 100, OPEN_TABLE, BREEDING._replace(soft_mutation=0.1))
     assert np.mean(children != 200) == pytest.approx(0.1, abs=5 * 0.0019)  # sqrt(0.1 * 0.9 / 24 000)
 
 
@@ -152,7 +150,7 @@ def test_given_cells_never_change(key, given_cells, p_hard, p_soft):
     fixed = np.array(given_cells, np.uint8)
     pool = random_pool(key, 6, fixed, 2)
     children = next_pool(
-        key, pool, np.arange(6.0), 2, fixed, replace(BREEDING, hard_mutation=p_hard, soft_mutation=p_soft)
+        key, pool, np.arange(6.0), 2, fixed, BREEDING._replace(hard_mutation=p_hard, soft_mutation=p_soft)
     )
     assert children.shape == pool.shape
     assert np.all((children == fixed) | (fixed == OPEN_CELL))
@@ -162,14 +160,14 @@ def test_given_cells_never_change(key, given_cells, p_hard, p_soft):
 def test_a_new_generation_leaves_the_old_one_as_it_was():
     pool = random_pool(3, 5, OPEN_TABLE, 2)
     before = pool.copy()
-    next_pool(8, pool, np.arange(5.0), 2, OPEN_TABLE, replace(BREEDING, hard_mutation=0.5, soft_mutation=0.5))
+    next_pool(8, pool, np.arange(5.0), 2, OPEN_TABLE, BREEDING._replace(hard_mutation=0.5, soft_mutation=0.5))
     np.testing.assert_array_equal(pool, before)
 
 
 def test_two_children_of_a_pair_have_complementary_masks():
     pool = np.arange(1, 13, dtype=np.uint8)[:, None] + np.zeros(40, np.uint8)  # individual k holds k + 1
     twins = next_pool(
-        8, pool, np.zeros(12), 250, np.full(40, OPEN_CELL, np.uint8), replace(BREEDING, children=2)
+        8, pool, np.zeros(12), 250, np.full(40, OPEN_CELL, np.uint8), BREEDING._replace(children=2)
     )
     for first, second in zip(twins[1:11:2], twins[2:12:2], strict=True):
         parents = {*first.tolist(), *second.tolist()}
@@ -180,7 +178,7 @@ def test_two_children_of_a_pair_have_complementary_masks():
 @pytest.mark.parametrize("children", [1, 2])
 def test_the_fitness_expected_of_a_child_is_its_parents_mean(children):
     """Of tables that hold what their individual's fitness is, crossed cell by cell."""
-    breeding = replace(BREEDING, elites=2, children=children)
+    breeding = BREEDING._replace(elites=2, children=children)
     pool = np.arange(9, dtype=np.uint8)[:, None] + np.zeros(60, np.uint8)
     fitness = np.arange(9.0)
     born = next_pool(5, pool, fitness, 250, np.full(60, OPEN_CELL, np.uint8), breeding)
@@ -192,5 +190,5 @@ def test_the_fitness_expected_of_a_child_is_its_parents_mean(children):
 
 def test_who_took_part_in_no_agent_is_expected_to_be_as_bad_as_the_worst():
     fitness = np.array([-np.inf, 3.0, 1.0, -np.inf])
-    assert np.isfinite(expected_fitness(5, fitness, replace(BREEDING, tournament=1))).all()
-    assert expected_fitness(5, fitness, replace(BREEDING, elites=4)).tolist() == [3, 1, 1, 1]
+    assert np.isfinite(expected_fitness(5, fitness, BREEDING._replace(tournament=1))).all()
+    assert expected_fitness(5, fitness, BREEDING._replace(elites=4)).tolist() == [3, 1, 1, 1]

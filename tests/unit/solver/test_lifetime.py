@@ -8,7 +8,7 @@ from bbsd.kernel.keys import keys
 from bbsd.solver.lifetime import explore, run_lifetimes
 from bbsd.solver.random_agents import random_agents
 from tests.unit.problems import problem_of
-from tests.unit.solver.problems import guess
+from tests.unit.solver.problems import guess, learning
 
 KEYS = keys(5, 0, 8)
 KEY_OF_A_LATE_MISTAKE = 4
@@ -17,19 +17,19 @@ KEY_OF_A_LATE_MISTAKE = 4
 def lives_of(search="sampled", structure="", **changed):
     problem, settings = guess(structure, search=search)
     agents = random_agents(problem, 1, 8)
-    return agents, run_lifetimes(problem, agents, KEYS, 1, replace(settings.learning, **changed))
+    return agents, run_lifetimes(problem, agents, KEYS, 1, learning(settings, **changed))
 
 
 def test_a_lifetime_of_one_episode_is_lived_as_born():
-    agents, lives = lives_of(lifetime=1, last=1)
+    agents, lives = lives_of(episodes=1, last=1)
     np.testing.assert_array_equal(lives.structures, agents.structures)
     assert lives.returns.shape == (8, 1)
 
 
 def test_the_structure_returned_is_that_of_the_last_episode():
-    agents, two = lives_of(lifetime=2, last=1)
+    agents, two = lives_of(episodes=2, last=1)
     assert (two.structures != agents.structures).any()
-    _, three = lives_of(lifetime=3, last=1)
+    _, three = lives_of(episodes=3, last=1)
     np.testing.assert_array_equal(three.returns[:, :2], two.returns)
 
 
@@ -50,8 +50,8 @@ def test_given_layers_stay_while_open_ones_are_learned(search):
 def test_exact_search_takes_the_best_assignment_of_what_was_learned():
     problem, settings = guess(search="exact")
     agents = random_agents(problem, 1, 8)
-    one = run_lifetimes(problem, agents, KEYS, 1, replace(settings.learning, lifetime=1, last=1))
-    two = run_lifetimes(problem, agents, KEYS, 1, replace(settings.learning, lifetime=2, last=1))
+    one = run_lifetimes(problem, agents, KEYS, 1, learning(settings, episodes=1, last=1))
+    two = run_lifetimes(problem, agents, KEYS, 1, learning(settings, episodes=2, last=1))
     orders = [(a, b, 3 - a - b) for a in range(3) for b in range(3) if a != b]
     for agent in range(8):
         worth = {order: sum(one.values[agent, layer, order[layer]] for layer in range(3)) for order in orders}
@@ -64,14 +64,15 @@ def test_exact_search_takes_the_best_assignment_of_what_was_learned():
 def test_exploring_agents_have_random_structures_but_not_in_the_last_episodes():
     problem, settings = guess()
     present = np.tile([0, 1, 2], (4000, 1))
-    always = np.full(4, 0.3)
-    learning = replace(settings.learning, exploration=always, lifetime=4, last=2)
-    explored = explore(problem, keys(1, 0, 4000), present, learning, 2)
+    settings = learning(settings, episodes=4, last=2)
+    often, never = (
+        replace(settings, rates=replace(settings.rates, exploration=4 * (rate,))) for rate in (0.3, 0.0)
+    )
+    explored = explore(problem, keys(1, 0, 4000), present, often, 2)
     others = np.mean((explored != present).any(axis=1))
     assert others == pytest.approx(0.3 * 5 / 6, abs=0.03)  # one of six orders is the present one
     for episode in (3, 4):
-        np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, learning, episode), present)
-    never = replace(learning, exploration=np.zeros(4))
+        np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, often, episode), present)
     np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, never, 2), present)
 
 
@@ -79,8 +80,9 @@ def test_by_counters_a_pair_is_worth_its_share_of_the_reinforcement():
     """(9) by (11): with a rate of 1, what a step under the pair earned times the share of steps it controlled."""
     problem, settings = guess("structure: [reckless, even, odd]")
     agents = random_agents(problem, 1, 1)
-    learning = replace(settings.learning, lifetime=1, last=1, rate=np.ones(1), estimate="counters")
-    lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, learning)
+    settings = learning(settings, episodes=1, last=1, estimate="counters")
+    settings = replace(settings, rates=replace(settings.rates, learning=(1.0,)))
+    lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, settings)
     # The reckless one on top says 9 in both steps: -1 a step, all the time.
     assert lives.values.tolist() == [[[0, 0, 0], [0, 0, 0], [0, 0, -1]]]
 
@@ -100,7 +102,7 @@ def test_what_was_earned_under_a_behavior_is_learned_of_it():
     agents = Agents(
         (np.ones((1, 1), np.uint8), np.ones((1, 1), np.uint8)), np.zeros((1, 2), np.int64), np.array([[0, 1]])
     )
-    lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, replace(settings.learning, lifetime=1, last=1))
+    lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, learning(settings, episodes=1, last=1))
     assert lives.returns.tolist() == [[22]]
     assert lives.values.tolist() == [[[0.5 * 2, 0], [0, 0.5 * 20]]]  # layers, lowest first, by behaviors
 
@@ -108,9 +110,9 @@ def test_what_was_earned_under_a_behavior_is_learned_of_it():
 def test_agents_live_alike_alone_and_together():
     problem, settings = guess()
     agents = random_agents(problem, 1, 8)
-    together = run_lifetimes(problem, agents, KEYS, 1, settings.learning)
+    together = run_lifetimes(problem, agents, KEYS, 1, settings)
     some = np.array([6, 1])
-    apart = run_lifetimes(problem, agents[some], KEYS[some], 1, settings.learning)
+    apart = run_lifetimes(problem, agents[some], KEYS[some], 1, settings)
     np.testing.assert_array_equal(apart.returns, together.returns[some])
     np.testing.assert_array_equal(apart.structures, together.structures[some])
     np.testing.assert_array_equal(apart.values, together.values[some])
@@ -126,8 +128,8 @@ def test_a_reward_that_is_not_finite_is_told_with_its_generation_and_episode():
     """
     problem, (_, settings) = problem_of(text), guess()
     agents = random_agents(problem, 1, 1)
-    learning = replace(settings.learning, learned=False, lifetime=4)
+    settings = replace(learning(settings, episodes=4), learned=False)
     with pytest.raises(
         RewardNotFinite, match=r"bad was inf in step 2 for robot 0 \(generation 7, episode [2-9]"
     ):
-        run_lifetimes(problem, agents, keys(KEY_OF_A_LATE_MISTAKE, 0, 1), 7, learning)
+        run_lifetimes(problem, agents, keys(KEY_OF_A_LATE_MISTAKE, 0, 1), 7, settings)

@@ -4,13 +4,13 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import bbsd
 from bbsd.solver.culture import Culture, draw_memes
+from bbsd.solver.estimates import update_values
 from bbsd.solver.genetics import OPEN_CELL, expected_fitness, next_pool, random_pool
 from bbsd.solver.pairing import members
 from bbsd.solver.structures import (
@@ -19,7 +19,6 @@ from bbsd.solver.structures import (
     random_structures,
     search_exact,
     search_sampled,
-    update_values,
 )
 from tests.unit.solver.problems import BREEDING
 
@@ -43,7 +42,7 @@ def pools_bred(key):
     given_cells = np.array([OPEN_CELL, 1, OPEN_CELL, OPEN_CELL], np.uint8)
     pool = random_pool(key, 6, given_cells, 3)
     fitness = np.array([0.0, 2.0, 1.0, -np.inf, 2.0, 1.0])
-    breeding = replace(BREEDING, children=2, hard_mutation=0.4, soft_mutation=0.3)
+    breeding = BREEDING._replace(children=2, hard_mutation=0.4, soft_mutation=0.3)
     return [
         pool,
         expected_fitness(key, fitness, breeding),

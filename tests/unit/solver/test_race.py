@@ -26,17 +26,17 @@ def bet(amount):
 
 def test_a_clear_winner_takes_one_round():
     finish = race(bets("1"), [bet(1), bet(2), bet(0)], key=1, cap=5000)
-    assert (finish.winner, finish.episodes, finish.in_doubt) == (1, 100, 1)
+    assert (finish.winner, finish.episodes, finish.undecided) == (1, 100, 1)
 
 
 def test_one_entrant_has_won():
     finish = race(bets("1"), [bet(1)], key=1, cap=5000)
-    assert (finish.winner, finish.episodes, finish.in_doubt) == (0, 0, 1)
+    assert (finish.winner, finish.episodes, finish.undecided) == (0, 0, 1)
 
 
 def test_designs_that_earn_the_same_are_one():
     finish = race(bets("normal(0, 1)"), [bet(2), bet(2), bet(2)], key=1, cap=5000)
-    assert (finish.winner, finish.episodes, finish.in_doubt) == (0, 100, 1)
+    assert (finish.winner, finish.episodes, finish.undecided) == (0, 100, 1)
 
 
 @pytest.mark.parametrize("cap", [100, 150, 250])
@@ -44,7 +44,7 @@ def test_what_is_in_doubt_at_the_cap_is_decided_by_the_mean(cap):
     problem = bets("normal(0, 1)")
     finish = race(problem, [bet(1), bet(2)], key=3, cap=cap)
     other_way = race(problem, [bet(2), bet(1)], key=3, cap=cap)
-    assert (finish.episodes, finish.in_doubt) == (cap, 2)
+    assert (finish.episodes, finish.undecided) == (cap, 2)
     assert other_way.winner == 1 - finish.winner
 
 

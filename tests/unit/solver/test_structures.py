@@ -12,7 +12,6 @@ from bbsd.solver.structures import (
     random_structures,
     search_exact,
     search_sampled,
-    update_values,
 )
 
 VALUES = st.one_of(st.integers(-2, 2).map(float), st.floats(-1e3, 1e3))
@@ -163,24 +162,3 @@ def test_given_layers_are_left_out_of_the_search():
     values[0, 1, 3], values[0, 2, 0] = 5.0, 1.0
     present = np.array([[2, 0, 1]])
     np.testing.assert_array_equal(search_exact(values, present, layers, np.array([0, 1, 3])), [[2, 3, 0]])
-
-
-def test_values_of_the_present_structure_move_toward_the_credit():
-    values = np.array([[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]])  # one agent, two layers, three behaviors
-    update_values(values, np.array([[2, 0]]), np.array([[0.0, 9.0, 7.0, 8.0]]), 0.25)
-    # (13): layer 0 holds behavior 2: 0.75 * 3 + 0.25 * 7 = 4; layer 1 holds behavior 0, which did not
-    # control: 0.75 * 4 + 0.25 * 0 = 3. Behavior 1 is in no layer; the last column is nobody's.
-    np.testing.assert_array_equal(values, [[[1.0, 2.0, 4.0], [3.0, 5.0, 6.0]]])
-
-
-def test_with_rate_1_an_estimate_is_the_last_credit():
-    values = np.full((1, 1, 1), 123.0)
-    update_values(values, np.array([[0]]), np.array([[-2.0, 0.0]]), 1.0)
-    assert values.item() == -2.0
-
-
-def test_with_rate_1_over_n_an_estimate_is_the_mean_credit():
-    values = np.zeros((1, 1, 1))
-    for episode, credit in enumerate([3.0, 5.0, -2.0, 6.0], start=1):
-        update_values(values, np.array([[0]]), np.array([[credit, 0.0]]), 1 / episode)
-    assert values.item() == pytest.approx(3.0, abs=1e-12)  # (3 + 5 - 2 + 6) / 4
