@@ -14,7 +14,7 @@ from bbsd.expression.vocabulary import RESERVED, UNREADABLE
 from bbsd.language import field_types, models, view
 from bbsd.language.base import FREE, Part
 from bbsd.language.field_types import Expression
-from bbsd.text.schema import meaning
+from bbsd.text.core_schema import meaning
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

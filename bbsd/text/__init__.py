@@ -1,4 +1,8 @@
-"""YAML in, with the place of everything in its file, and YAML out, in one style."""
+"""Specs as YAML texts: read with the place of every value, written in one style.
+
+`reading` turns a text into a `Document` and reports mistakes; `writing` makes texts of data, changes parts of a text,
+and puts a text in the house style. Both use the modules here: the source, the tree of nodes, the document.
+"""
 
 from bbsd.text.document import Document
 from bbsd.text.nodes import Data, DataPath

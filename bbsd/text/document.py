@@ -1,4 +1,4 @@
-"""A text that was read: its data, what is wrong with it, and where everything stands."""
+"""A text as it was read: its data, its mistakes, and the place of every value."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Document:
-    """What a text says as far as it could be read; `root` is None where it could not."""
+    """The content of a text as far as it could be read; `root` is None where it could not."""
 
     source: Source
     root: Mapping | None
@@ -32,7 +32,7 @@ class Document:
         return data if isinstance(data, dict) else {}
 
     def holds(self, path: DataPath) -> bool:
-        """Whether there is something at a path of keys and indices."""
+        """Say whether there is a value at a path of keys and indices."""
         node: Node | None = self.root
         for segment in path:
             node = None if node is None else child(node, segment)
@@ -43,10 +43,10 @@ class Document:
     ) -> Place:
         """Return the place of the value at a path of keys and indices, or of its key.
 
-        Segments that name nothing are skipped, such as the names of unions in a schema's reports; where
-        the last one names nothing, or no value is written, it is the key of what was found. With an
-        offset it is the place of that character of the value's (or key's) text, wherever folding, quotes
-        and escapes put it. The place of a single value without an offset has all of it on its first line.
+        Segments that name nothing are skipped, such as the names of unions in pydantic's errors; where the last one
+        names nothing, or no value is written, the place is that of the key that the path leads to. With an offset it
+        is the place of that character of the value's (or key's) text, wherever folding, quotes and escapes put it.
+        Without one, the place of a single value covers all of it on its first line.
         """
         if self.root is None:
             return self.source.place(0)
@@ -64,7 +64,7 @@ class Document:
 
     @cached_property
     def _offsets(self) -> dict[int, list[int]]:
-        """Where the characters of scalars stand, by the scalar's start: one may have many mistakes."""
+        """The offsets of scalars' characters by the scalar's start, kept since one scalar may have many mistakes."""
         return {}
 
     def _inside(self, scalar: Scalar, offset: int, length: int) -> Place:
@@ -79,16 +79,16 @@ class Document:
 def _find(root: Mapping, path: Iterable[str | int]) -> tuple[Node, Node, bool]:
     """Return the key and the value that a path leads to, and whether its last segment was found.
 
-    An item of a list, and the whole, stand for their own keys.
+    An item of a list and the whole document have no key; they are returned as their own.
     """
     key: Node = root
     node: Node = root
     is_found = True
     for segment in path:
-        found = child(node, segment)
-        is_found = found is not None
-        if found is not None:
-            key, node = _key(node, segment) or found, found
+        value = child(node, segment)
+        is_found = value is not None
+        if value is not None:
+            key, node = _key(node, segment) or value, value
     return key, node, is_found
 
 

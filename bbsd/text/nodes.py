@@ -1,4 +1,4 @@
-"""A YAML document as a tree in which every node knows where it stands in the text."""
+"""A YAML document as a tree of nodes, each with its offsets in the text."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ DataPath: TypeAlias = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A single value: its text, as YAML reads the characters from start to end, and what the text means.
+    """A single value: its text, as YAML reads the characters from start to end, and its data.
 
-    The style is '' for a plain scalar, else the character that begins it. Start and end include quotes,
+    The style is '' for a plain scalar, else its first character (quote, | or >). Start and end include quotes,
     anchors and a block scalar's header.
     """
 
@@ -25,12 +25,12 @@ class Scalar:
 
     @property
     def is_unwritten(self) -> bool:
-        """Say whether it is the null that follows `key:` where nothing is written."""
+        """Whether this is the null that follows `key:` where nothing is written."""
         return not self.style and self.start == self.end
 
     @property
     def is_plain(self) -> bool:
-        """Say whether it is written without quotes."""
+        """Whether the value is written without quotes."""
         return not self.style and self.start < self.end
 
 
@@ -75,7 +75,7 @@ Node: TypeAlias = Scalar | Sequence | Mapping | Alias
 
 
 def data_of(node: Node) -> Data:
-    """Return what a node says as plain data, aliases expanded; no part of it is shared."""
+    """Return the data of a node, aliases expanded; no two parts of it are the same object."""
     match node:
         case Alias():
             return data_of(node.target)
@@ -88,7 +88,7 @@ def data_of(node: Node) -> Data:
 
 
 def child(node: Node, segment: str | int) -> Node | None:
-    """Return the value of that key or at that index, through an alias too; None if there is none."""
+    """Return the value at a key or an index of a node, also through an alias; None if there is none."""
     match node:
         case Alias():
             return child(node.target, segment)

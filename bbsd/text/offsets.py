@@ -1,4 +1,4 @@
-"""Where the characters of a value stand in the text of its file."""
+"""Offsets of the characters of a value in the text of its file."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ ESCAPES |= {"N": "\x85", "_": "\xa0", "L": "\u2028", "P": "\u2029"}
 
 
 def source_offsets(text: str, scalar: Scalar) -> list[int]:
-    """Return where each character of the scalar's text begins in the file's text, and where the value ends.
+    """Return the offset of each character of a scalar in the text of its file, and of the scalar's end.
 
-    YAML drops indentation, folds line breaks and resolves escapes, but what is not blank stays in order:
-    these characters are matched one by one, and blanks to the blanks between them.
+    YAML drops indentation, folds line breaks and resolves escapes, but characters that are not blank stay in order:
+    they are matched one by one, and blanks to the blanks between them.
     """
     pieces = [*_pieces(text, scalar)]
     offsets, index = [], 0
@@ -50,18 +50,19 @@ def source_offsets(text: str, scalar: Scalar) -> list[int]:
 
 
 def _pieces(text: str, scalar: Scalar) -> Iterator[tuple[int, str]]:
-    """Yield each character that the source spells out behind its offset; last the end and ''."""
+    """Yield the offset and the character of each spelling in the source; last the end and ''."""
     opening = re.compile(PROPERTIES + OPENINGS.get(scalar.style, "")).match(text, scalar.start)
     start = opening.end() if opening else scalar.start
     end = scalar.end - (scalar.style in {"'", '"'})
     if spelling := SPELLINGS.get(scalar.style):
-        yield from ((found.start(), _spelled(found[0])) for found in spelling.finditer(text, start, end))
+        yield from ((match.start(), _spelled(match[0])) for match in spelling.finditer(text, start, end))
     else:
         yield from enumerate(text[start:end], start)
     yield end, ""
 
 
 def _spelled(piece: str) -> str:
+    """Return the character that a spelling stands for: itself, a doubled quote, or an escape."""
     if len(piece) == 1:
         return piece
     if piece == "''":

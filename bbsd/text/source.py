@@ -1,4 +1,4 @@
-"""The text of a file, and where its characters stand."""
+"""The text of a file, and the lines and columns of its characters."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from pathlib import Path
 
 from bbsd.errors import Diagnosis, Place, SpecError
 
-MAX_BYTES = 1_000_000
+MAX_BYTES = 1_000_000  # the specs that people write have a few kilobytes
 BYTE_ORDER_MARK = "\ufeff"
 LINE_BREAK = re.compile(r"\r\n|\r|\n")
 
 
 @dataclass(frozen=True)
 class Source:
-    """The text of a file, under the name that diagnoses call it by."""
+    """The text of a file, and the name of the file as diagnoses show it."""
 
     file: str
     text: str
@@ -26,15 +26,15 @@ class Source:
     def read(cls, path: str | Path) -> Source:
         """Read a file in UTF-8, with or without a byte order mark.
 
-        Raises SpecError where there is no such file, it is a directory, may not be opened, has more than
-        1 MB or is not UTF-8.
+        Raises SpecError if there is no such file, or it is a directory, may not be opened, has more than 1 MB or is
+        not UTF-8.
         """
         file = str(path)
         return _decoded(file, _content(file))
 
     @cached_property
     def _starts(self) -> list[int]:
-        return [0, *(found.end() for found in LINE_BREAK.finditer(self.text))]
+        return [0, *(match.end() for match in LINE_BREAK.finditer(self.text))]
 
     def line(self, number: int) -> str:
         """Return the line of that number, counted from 1, without its break; '' if there is none."""
@@ -44,15 +44,15 @@ class Source:
         return self.text[start : self.line_end(start)]
 
     def line_number(self, offset: int) -> int:
-        """Return the number, counted from 1, of the line that the character at this offset is on."""
+        """Return the number, counted from 1, of the line that an offset is on."""
         return bisect_right(self._starts, offset)
 
     def line_start(self, offset: int) -> int:
-        """Return the offset at which the line of this offset begins."""
+        """Return the offset of the first character of the line that an offset is on."""
         return self._starts[self.line_number(offset) - 1]
 
     def line_end(self, offset: int) -> int:
-        """Return the offset of the break that ends the line of this offset, or of the text's end."""
+        """Return the offset of the break that ends the line that an offset is on, or of the text's end."""
         number = self.line_number(offset)
         if number == len(self._starts):
             return len(self.text)
@@ -60,7 +60,7 @@ class Source:
         return end - 1 if self.text[end - 1 : end + 1] == "\r\n" else end
 
     def place(self, start: int, end: int | None = None) -> Place:
-        """Return the place of the characters from `start` up to `end`, as far as they are on one line."""
+        """Return the place of the characters from `start` up to `end` (one if None), as far as they are on one line."""
         last = start + 1 if end is None else min(end, self.line_end(start))
         column = start - self.line_start(start) + 1
         return Place(self.file, self.line_number(start), column, max(1, last - start))

@@ -1,4 +1,4 @@
-"""From the parser's events to a tree of nodes, within bounds that aliases cannot get around."""
+"""From the parser's events to a tree of nodes, within bounds that hold with aliases expanded."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from yaml import MarkedYAMLError
 
 from bbsd.errors import Diagnosis
+from bbsd.text.core_schema import is_text, meaning
 from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
 from bbsd.text.reading.events import Event, events
-from bbsd.text.reading.keys import entries_of
+from bbsd.text.reading.mapping_keys import entries_of
 from bbsd.text.reading.syntax import explain_syntax_error
 from bbsd.text.reading.traps import NOTHING, Piece, comma_mistakes, empty_block_mistake, glued, join_at_commas
-from bbsd.text.schema import is_text, meaning
 from bbsd.text.source import MAX_BYTES
 
 if TYPE_CHECKING:
@@ -22,18 +22,19 @@ if TYPE_CHECKING:
 
     from bbsd.text.source import Source
 
-MAX_NODES = 50_000
-MAX_DEPTH = 40
-MAX_TEXT = 10_000
-TEXT_OF_A_NODE = 1000  # characters; a longer text counts as several values
-LONG_KEYS = frozenset({"table"})  # whose texts may be as long as the file
-MAX_NUMBER = 100
+# The bounds keep a small hostile file, with its aliases expanded, from exhausting the machine.
+MAX_NODES = 50_000  # keys and values
+MAX_DEPTH = 40  # levels
+MAX_TEXT = 10_000  # characters
+CHARACTERS_OF_A_NODE = 1000  # a longer text counts as several values
+LONG_KEYS = frozenset({"table"})  # keys whose texts may be as long as the file
+MAX_NUMBER = 100  # characters
 TOO_DEEP = f"this is nested more than {MAX_DEPTH} levels deep"
 UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 class _RefusedError(Exception):
-    """Reading ends here."""
+    """A mistake after which reading cannot continue."""
 
     def __init__(self, diagnosis: Diagnosis) -> None:
         super().__init__(diagnosis)
@@ -42,6 +43,8 @@ class _RefusedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class _Anchored:
+    """A node that an anchor names."""
+
     node: Scalar | Sequence | Mapping
     size: int  # nodes, aliases expanded
     height: int  # levels below it, aliases expanded
@@ -49,6 +52,8 @@ class _Anchored:
 
 @dataclass(slots=True)
 class _Reading:
+    """The state of reading one text: its events, the anchors and mistakes so far, and what counts for the bounds."""
+
     source: Source
     events: Iterator[Event]
     anchors: dict[str, _Anchored] = field(default_factory=dict)
@@ -59,7 +64,7 @@ class _Reading:
     def diagnosis(self, code: str, message: str, event: Event, advice: str = "") -> Diagnosis:
         return Diagnosis(code, message, self.source.place(event.start, event.end), advice)
 
-    def note(self, code: str, message: str, event: Event, advice: str = "") -> None:
+    def report(self, code: str, message: str, event: Event, advice: str = "") -> None:
         self.mistakes.append(self.diagnosis(code, message, event, advice))
 
     def count(self, event: Event, size: int, depth: int) -> None:
@@ -73,22 +78,22 @@ class _Reading:
 
 
 def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
-    """Return the mapping that a text is, None if it is not one, and all that is wrong with it as YAML."""
-    if found := UNPRINTABLE.search(source.text):
-        message = f"the control character U+{ord(found[0]):04X} cannot stand in a spec"
-        return None, [Diagnosis("BB003", message, source.place(found.start()))]
+    """Return the mapping that a text consists of, None if it is no mapping, and all its mistakes as YAML."""
+    if match := UNPRINTABLE.search(source.text):
+        message = f"the control character U+{ord(match[0]):04X} cannot stand in a spec"
+        return None, [Diagnosis("BB003", message, source.place(match.start()))]
     reading = _Reading(source, events(source.text))
     try:
         return _document(reading), reading.mistakes
     except _RefusedError as refused:
         return None, [*reading.mistakes, refused.diagnosis]
     except MarkedYAMLError as error:
-        end = _too_deep(source, error) or explain_syntax_error(source, error)
-        return None, [*(each for each in reading.mistakes if not _same_start(each, end)), end]
+        last = _too_deep(source, error) or explain_syntax_error(source, error)
+        return None, [*(mistake for mistake in reading.mistakes if not _same_start(mistake, last)), last]
 
 
 def _too_deep(source: Source, error: MarkedYAMLError) -> Diagnosis | None:
-    """The parser looks ahead for keys, and from PyYAML 6.0.4 on its own bound of depth may come before ours."""
+    """Return the diagnosis if the parser gave up on the depth: PyYAML from 6.0.4 on may do so before our bound."""
     if "nesting depth" not in (error.problem or "") or error.problem_mark is None:
         return None
     return Diagnosis("BB012", TOO_DEEP, source.place(error.problem_mark.index))
@@ -107,7 +112,7 @@ def _document(reading: _Reading) -> Mapping:
     root = _node(reading, event, 1)
     next(reading.events)  # the document's end
     if (more := next(reading.events)).kind == "document":
-        reading.note("BB015", "a second document begins here", more, "keep each spec in a file of its own")
+        reading.report("BB015", "a second document begins here", more, "keep each spec in a file of its own")
     if isinstance(root, Mapping):
         return root
     raise _RefusedError(_not_a_mapping(reading, root, event))
@@ -127,7 +132,7 @@ def _node(reading: _Reading, event: Event, depth: int, longest: int = MAX_TEXT) 
     if event.tag is not None:
         negated = event.tag.lstrip("!") if event.tag.lstrip("!").isidentifier() else "..."
         advice = f'remove it; if an expression is meant, write "not {negated}"'
-        reading.note("BB009", f'a spec has no tags such as "{event.tag}"', event, advice)
+        reading.report("BB009", f'a spec has no tags such as "{event.tag}"', event, advice)
     if event.anchor is None:
         return _unanchored(reading, event, depth, longest)
     return _anchored(reading, event, event.anchor, depth, longest)
@@ -147,7 +152,7 @@ def _anchored(reading: _Reading, event: Event, anchor: str, depth: int, longest:
     size, deepest = reading.size - _size(event), reading.deepest
     reading.anchors.pop(
         anchor, None
-    )  # within the node its name means nothing, not an older node of that name
+    )  # within the node its name is unknown, also where it named an older node
     reading.deepest = depth
     node = _unanchored(reading, event, depth, longest)
     reading.anchors[anchor] = _Anchored(node, reading.size - size, reading.deepest - depth)
@@ -156,7 +161,7 @@ def _anchored(reading: _Reading, event: Event, anchor: str, depth: int, longest:
 
 
 def _size(event: Event) -> int:
-    return 1 + len(event.text) // TEXT_OF_A_NODE
+    return 1 + len(event.text) // CHARACTERS_OF_A_NODE
 
 
 def _alias(reading: _Reading, event: Event, depth: int, longest: int) -> Node:
@@ -164,7 +169,7 @@ def _alias(reading: _Reading, event: Event, depth: int, longest: int) -> Node:
     anchored = reading.anchors.get(name)
     if anchored is None:
         advice = "put the value in quotes, if an expression is meant"
-        reading.note("BB010", f'no value before this one is marked with "&{name}"', event, advice)
+        reading.report("BB010", f'no value before this one is marked with "&{name}"', event, advice)
         return Scalar(event.start, event.end, "", f"*{name}", f"*{name}")
     reading.count(event, anchored.size, depth + anchored.height)
     if isinstance(anchored.node, Scalar) and len(anchored.node.text) > longest:
@@ -173,7 +178,7 @@ def _alias(reading: _Reading, event: Event, depth: int, longest: int) -> Node:
 
 
 def _shortened(reading: _Reading, node: Scalar, event: Event, longest: int) -> Scalar:
-    """Return a text that is repeated where it is too long."""
+    """Return a copy of a scalar for an alias that stands where so long a text is not allowed."""
     text = _cut(reading, node.text, event, longest)
     return Scalar(event.start, event.end, "*", text, text)
 
@@ -188,10 +193,10 @@ def _scalar(reading: _Reading, event: Event, longest: int) -> Scalar:
 
 
 def _cut(reading: _Reading, text: str, event: Event, longest: int) -> str:
-    """Return a text, or of one that is too long only so much that aliases cannot make work of it."""
+    """Return a text, one that is too long cut, so that its aliases cannot multiply it."""
     if len(text) > longest:
         message = f"a text of {len(text)} characters; the longest may have {longest}"
-        reading.note("BB013", message, event)
+        reading.report("BB013", message, event)
     return text[:longest]
 
 
@@ -200,7 +205,7 @@ def _meaning(reading: _Reading, event: Event, text: str) -> str | int | float | 
         return meaning(text)
     if not is_text(text):
         message = f"a number of {len(text)} characters; the longest may have {MAX_NUMBER}"
-        reading.note("BB013", message, event, "put it in quotes, if a text is meant")
+        reading.report("BB013", message, event, "put it in quotes, if a text is meant")
     return text
 
 
@@ -208,7 +213,7 @@ def _sequence(reading: _Reading, event: Event, depth: int) -> Sequence:
     pieces: list[Piece] = []
     while (item := next(reading.events)).kind != "end":
         pieces.append((_node(reading, item, depth + 1), NOTHING))
-    items = tuple(node for node, _ in _meant(reading, event, pieces))
+    items = tuple(node for node, _ in _rejoined(reading, event, pieces))
     return Sequence(event.start, item.end if event.flow else items[-1].end, event.flow, items)
 
 
@@ -219,19 +224,20 @@ def _mapping(reading: _Reading, event: Event, depth: int) -> Mapping:
         pieces.append((key, _node(reading, next(reading.events), depth + 1, _longest(key))))
     # The parser's own end of a block lies behind the comments that follow it.
     end = item.end if event.flow else pieces[-1][1].end
-    entries, mistakes = entries_of(reading.source, _meant(reading, event, pieces), event.flow)
+    entries, mistakes = entries_of(reading.source, _rejoined(reading, event, pieces), event.flow)
     reading.mistakes += mistakes
     return Mapping(event.start, end, event.flow, entries)
 
 
 def _longest(key: Node) -> int:
-    """Return how long the text of a key's value may be."""
+    """Return the greatest length of a text under a key."""
     return MAX_BYTES if isinstance(key, Scalar) and key.text in LONG_KEYS else MAX_TEXT
 
 
-def _meant(reading: _Reading, event: Event, pieces: list[Piece]) -> list[Piece]:
+def _rejoined(reading: _Reading, event: Event, pieces: list[Piece]) -> list[Piece]:
+    """Return the pieces of a collection; those in brackets rejoined where a comma between parentheses cut them."""
     if not event.flow:
         return pieces
-    meant, joined = join_at_commas(reading.source.text, pieces)
+    rejoined, joined = join_at_commas(reading.source.text, pieces)
     reading.mistakes += comma_mistakes(reading.source, joined)
-    return meant
+    return rejoined

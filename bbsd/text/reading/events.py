@@ -1,4 +1,4 @@
-"""The parser's events, reduced to what a tree is made of."""
+"""The events of PyYAML's parser, reduced to what a tree of nodes needs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ EVENT_KINDS: dict[type[yaml.Event], EventKind] = {
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """One step of the parser; `text` is a scalar's value, `style` what begins it or '' if it is plain."""
+    """One event of the parser; `text` is a scalar's value, `style` its first character, or '' if it is plain."""
 
     kind: EventKind
     start: int
@@ -42,7 +42,7 @@ class Event:
 
 
 def events(text: str) -> Iterator[Event]:
-    """Yield the events of a text as far as it is YAML; then raises MarkedYAMLError."""
+    """Yield the events of a text as far as it is YAML; raises MarkedYAMLError where it is not."""
     for event in yaml.parse(text, Loader=CCoreLoader):
         start, end = event.start_mark, event.end_mark
         yield Event(

@@ -1,4 +1,4 @@
-"""What breaks YAML's grammar, in the words of someone who wants to mend it."""
+"""Violations of YAML's grammar, explained in terms of what to mend instead of what the parser expected."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 LONGEST_QUOTED = 60
 COMMENT = re.compile(r"\s+#.*")
-# What stands before a value on its line: dashes of lists and keys.
+# What precedes a value on its line: dashes of lists and keys.
 LEAD = re.compile(r"\s*(?:- +)*(?:[^\s:#'\"][^:#'\"\[{]*:\s+)?")
 VALUES_WITH_END = ("[", "{", "'", '"', "*", "&")
 
 
 @dataclass(frozen=True, slots=True)
 class _Trouble:
-    """What the parser complained about: `at` is where it noticed, `since` where the construct begins."""
+    """An error of the parser: `at` is the offset where it was noticed, `since` where the construct begins."""
 
     source: Source
     context: str
@@ -48,7 +48,7 @@ class _Trouble:
 
 
 def explain_syntax_error(source: Source, error: MarkedYAMLError) -> Diagnosis:
-    """Return the diagnosis of a text that the parser gave up on."""
+    """Return the diagnosis of an error of the parser."""
     trouble = _trouble(source, error)
     if trouble.character == "\t" or "tab character" in trouble.problem:
         return Diagnosis(
@@ -91,7 +91,7 @@ def _open_bracket(trouble: _Trouble) -> Diagnosis:
 
 
 def _is_outside(source: Source, trouble: _Trouble) -> bool:
-    """Say whether the line is indented no more than the bracket's, so that it is not meant to be inside."""
+    """Say whether the line is indented no more than the bracket's, and so was not written to be inside."""
     if source.line_number(trouble.since) == source.line_number(trouble.at):
         return False
     return _indent(source, trouble.at) <= _indent(source, trouble.since)
@@ -176,7 +176,7 @@ def _colon_in_value(trouble: _Trouble, start: int) -> Diagnosis:
 
 
 def _line_above(source: Source, offset: int) -> int:
-    """Return where the text of the last line before that of the offset begins that is not blank."""
+    """Return the offset of the text on the last line above an offset's line that is not blank."""
     above = source.text[: source.line_start(offset)].rstrip()
     start = source.line_start(len(above))
     lead = re.compile(r"\s*(?:- +)*").match(source.text, start)
@@ -214,7 +214,7 @@ def _after_end(trouble: _Trouble) -> Diagnosis:
     return trouble.says("there is more after the end of the document", "remove it, or the line with ...")
 
 
-# (a part of what the parser was doing, a part of what it found, what that means); the first that fits counts.
+# (part of the parser's context, part of its problem, the explanation); the first that matches is used.
 _EXPLANATIONS: tuple[tuple[str, str, Callable[[_Trouble], Diagnosis]], ...] = (
     ("quoted scalar", "unexpected end of stream", _open_quote),
     ("quoted scalar", "unexpected document indicator", _open_quote),

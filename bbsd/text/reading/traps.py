@@ -1,4 +1,4 @@
-"""Texts that YAML reads without complaint as something else than what was meant."""
+"""Texts that YAML accepts, but reads as something else than their author meant."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ if TYPE_CHECKING:
 
     from bbsd.text.source import Source
 
-Piece: TypeAlias = tuple[
-    Node, Node
-]  # what stands between two commas: a key and its value, or a value and NOTHING
+Piece: TypeAlias = tuple[Node, Node]
+"""What stands between two commas: a key and its value, or a value and NOTHING."""
 NOTHING = Scalar(0, 0, "", "", None)
-MOST_PIECES = 100  # of one expression; more are not looked at, so that no file takes quadratic time
+MAX_PIECES = 100  # of one expression; more are not searched, so that no file takes quadratic time
 GLUED = re.compile(r"([A-Za-z_]\w*):[^\s/:]")
 
 
@@ -26,20 +25,20 @@ def join_at_commas(text: str, pieces: Iterable[Piece]) -> tuple[list[Piece], lis
     """Rejoin the pieces of a flow mapping or list that a comma between parentheses separated.
 
     `{speed: min(speed, top)}` is the key `speed` with the text `min(speed`, and a key `top)` without a
-    value. Returns the pieces as meant and the scalars that were rejoined.
+    value. Returns the pieces, rejoined, and the scalars that were made by it.
     """
-    rest, meant, joined = list(pieces)[::-1], [], []
+    rest, rejoined, joined = list(pieces)[::-1], [], []
     while rest:
         piece = rest.pop()
-        if count := _pieces_to_closing(piece, islice(reversed(rest), MOST_PIECES)):
+        if count := _pieces_to_closing(piece, islice(reversed(rest), MAX_PIECES)):
             last = rest[-count]
             del rest[-count:]
             piece, scalar = _join(text, piece, last)
             rest.append(piece)
             joined.append(scalar)
         else:
-            meant.append(piece)
-    return meant, joined
+            rejoined.append(piece)
+    return rejoined, joined
 
 
 def _pieces_to_closing(piece: Piece, following: Iterable[Piece]) -> int:
@@ -70,13 +69,13 @@ def _join(text: str, first: Piece, last: Piece) -> tuple[Piece, Scalar]:
     key, value = first
     is_bare = _is_nothing(value)
     start, end = (key if is_bare else value).start, last[0].end
-    meant = " ".join(text[start:end].split())
-    scalar = Scalar(start, end, "", meant, meant)
+    value_text = " ".join(text[start:end].split())
+    scalar = Scalar(start, end, "", value_text, value_text)
     return ((scalar, last[1]) if is_bare else (key, scalar)), scalar
 
 
 def comma_mistakes(source: Source, joined: Sequence[Scalar]) -> list[Diagnosis]:
-    """Diagnose values that commas cut into pieces."""
+    """Return the diagnoses of values that commas cut into pieces."""
     return [
         Diagnosis(
             "BB016",
@@ -89,7 +88,7 @@ def comma_mistakes(source: Source, joined: Sequence[Scalar]) -> list[Diagnosis]:
 
 
 def glued_mistake(source: Source, key: Scalar, value: Node, flow: bool) -> Diagnosis | None:
-    """Diagnose `key:value`, which is one text: a key in a flow mapping, a value on a line below a key."""
+    """Return the diagnosis of `key:value`, which YAML reads as one text: a key in braces, or a value below its key."""
     suspect = key if flow and _is_nothing(value) else value
     if not isinstance(suspect, Scalar) or not suspect.is_plain or not GLUED.match(suspect.text):
         return None
@@ -99,16 +98,16 @@ def glued_mistake(source: Source, key: Scalar, value: Node, flow: bool) -> Diagn
 
 
 def glued(source: Source, start: int) -> Diagnosis | None:
-    """Diagnose the colon without a blank in the `key:value` that begins at this offset, if one does."""
-    found = GLUED.match(source.text, start)
-    if not found:
+    """Return the diagnosis of the `key:value` that begins at an offset, if one does: a colon without a blank."""
+    match = GLUED.match(source.text, start)
+    if not match:
         return None
-    message = f'there is no blank after the colon of "{found[1]}:"'
-    return Diagnosis("BB017", message, source.place(start, found.end() - 1), "write `key: value`")
+    message = f'there is no blank after the colon of "{match[1]}:"'
+    return Diagnosis("BB017", message, source.place(start, match.end() - 1), "write `key: value`")
 
 
 def empty_block_mistake(source: Source, scalar: Scalar) -> Diagnosis | None:
-    """Diagnose `>3`, which announces an indented text on the lines below, and there is none."""
+    """Return the diagnosis of a value such as `>3`, which begins a block of text that has no lines."""
     if scalar.style not in {"|", ">"} or scalar.text.strip():
         return None
     return Diagnosis(

@@ -1,6 +1,6 @@
-"""A file in the house's style: what it says, its comments and its order stay, blanks and quotes are put in order.
+"""The house style of a file: its data, comments and order stay, blanks and quotes are put in order.
 
-Every step is checked: the text must read as the same data with the same comments, or the step is left out.
+Every step is checked: if its text does not read as the same data with the same comments, the step is left out.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from bbsd.text.nodes import Mapping, Sequence
 from bbsd.text.reading.reader import read
 from bbsd.text.source import Source
-from bbsd.text.writing.edits import line_break
-from bbsd.text.writing.layout import UnusualError, laid_out
+from bbsd.text.writing.entry_edits import line_break
+from bbsd.text.writing.layout import UnusualError, lay_out
 from bbsd.text.writing.leaves import comments_in, leaves_in
 
 if TYPE_CHECKING:
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
     from bbsd.text.document import Document
     from bbsd.text.nodes import Entry
 
-MAX_ROUNDS = 5
+MAX_ROUNDS = 5  # fewer are made where a round changes nothing
 LINES = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 
 
 def in_house_style(document: Document) -> str:
-    """Return the text of a document in the house's style.
+    """Return the text of a document in the house style.
 
-    Moved are indentation (two blanks a level), blanks within lines and at their ends, blank lines (one around
-    the blocks at the top, never two), and quotes that are not needed. Not touched are the words of comments
-    and values, where values are broken into lines, and whether a list or mapping stands in brackets. Raises
-    ValueError if the document has mistakes.
+    Changed are the indentation (two blanks a level), blanks within lines and at their ends, blank lines (one around
+    the blocks at the top, never two), and quotes that are not needed. Unchanged are the words of comments and values,
+    the line breaks within values, and whether a list or mapping stands in brackets. Raises ValueError if the document
+    has mistakes.
     """
     if document.diagnoses:
         raise ValueError("a text with mistakes cannot be laid out")
     for _ in range(MAX_ROUNDS):
         before = document
-        for step in (_laid_out, _spaced):
+        for step in (_lay_out, _set_blank_lines):
             document = _if_same(document, step(document))
         if document.source.text == before.source.text:
             break
@@ -47,7 +47,7 @@ def in_house_style(document: Document) -> str:
 
 
 def _if_same(document: Document, text: str) -> Document:
-    """Return the document of a new text, or the old one if the new one does not say the same."""
+    """Return the document of a new text if its content is the same, else the old document."""
     if text == document.source.text:
         return document
     result = read(Source(document.source.file, text))
@@ -56,26 +56,26 @@ def _if_same(document: Document, text: str) -> Document:
 
 
 def _content(document: Document) -> tuple[str, list[str]]:
-    """Return what must not change; as JSON, since to `==` 1, 1.0 and true are the same."""
+    """Return what must not change: the data, as JSON since `==` takes 1, 1.0 and true for equal, and the comments."""
     text, root = document.source.text, document.root
     comments = [text[start:end].rstrip() for start, end in comments_in(text, root)] if root else []
     return json.dumps(document.data), comments
 
 
-def _laid_out(document: Document) -> str:
+def _lay_out(document: Document) -> str:
     try:
-        return laid_out(document.source, document.root) if document.root else document.source.text
+        return lay_out(document.source, document.root) if document.root else document.source.text
     except UnusualError:
         return document.source.text
 
 
-def _spaced(document: Document) -> str:
-    """Return the text without blank lines at its ends and in a row, and with one around blocks at the top."""
+def _set_blank_lines(document: Document) -> str:
+    """Return the text with one blank line around blocks at the top, and none at its ends or in a row."""
     if document.root is None:
         return document.source.text
     source = document.source
-    lines = [found[0] for found in LINES.finditer(source.text) if found[0]]
-    kept, gaps = _inner_lines(document), set(_gaps(source, lines, document.root))
+    lines = [match[0] for match in LINES.finditer(source.text) if match[0]]
+    kept, gaps = _continued_lines(document), set(_lines_after_gaps(source, lines, document.root))
     spaced: list[str] = []
     for number, line in enumerate(lines, 1):
         is_blank = not line.strip() and number not in kept
@@ -86,16 +86,16 @@ def _spaced(document: Document) -> str:
     return "".join(spaced).rstrip() + line_break(source)
 
 
-def _inner_lines(document: Document) -> set[int]:
-    """Return the numbers of lines that a value goes on in: a blank one there may be part of it."""
-    source, found = document.source, set[int]()
+def _continued_lines(document: Document) -> set[int]:
+    """Return the numbers of the lines on which a value continues: a blank line there may be part of it."""
+    source, numbers = document.source, set[int]()
     for leaf in leaves_in(document.root) if document.root else ():
-        found.update(range(source.line_number(leaf.start) + 1, source.line_number(leaf.end) + 1))
-    return found
+        numbers.update(range(source.line_number(leaf.start) + 1, source.line_number(leaf.end) + 1))
+    return numbers
 
 
-def _gaps(source: Source, lines: list[str], root: Mapping) -> Iterator[int]:
-    """Yield the lines before which there is to be a blank one: keys at the top, with the comments above them."""
+def _lines_after_gaps(source: Source, lines: list[str], root: Mapping) -> Iterator[int]:
+    """Yield the lines that need a blank line before them: keys of blocks at the top, or the comments above those."""
     entries = [] if root.flow else [*root.entries.values()]
     for before, entry in pairwise(entries):
         if _is_block(source, before) or _is_block(source, entry):

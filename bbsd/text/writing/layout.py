@@ -1,4 +1,4 @@
-"""The house's layout of a YAML text, as edits that move blanks and quotes and touch nothing else."""
+"""The house style's layout of a YAML text, as edits that change only blanks and quotes."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from bbsd.text.nodes import Mapping, Scalar, Sequence
-from bbsd.text.writing.flow import value_layout
-from bbsd.text.writing.leaves import between, comments_in
+from bbsd.text.writing.inline_layout import inline_layout
+from bbsd.text.writing.leaves import comments_in, gaps_between_leaves
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 STEP = 2
 LEAST_GAP = 2
-"""Blanks before a comment that follows something on its line."""
+"""The fewest blanks before a comment that follows something on its line."""
 COLON = re.compile(r"[ \t]*:")
 DASH = re.compile(r"(?<!\S)-(?!\S)")
 COMMENT = re.compile(r"(?<!\S)#[^\r\n]*")
@@ -31,12 +31,12 @@ TRAILING = re.compile(r"[ \t]+(?=[\r\n])|[ \t]+\Z")
 
 
 class UnusualError(Exception):
-    """A text that is written in a way whose layout is left alone, such as with `? key`."""
+    """A text in an unusual form, such as with `? key`, whose layout is left as it is."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Edit:
-    """What takes the place of the characters from start up to end."""
+    """A replacement of the characters from start up to end by a text."""
 
     start: int
     end: int
@@ -45,7 +45,7 @@ class Edit:
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """A key, or the dash of an item: where it stands, and in which column it is to stand."""
+    """A key or the dash of an item: its line, its column, and the column that the layout gives it."""
 
     line: int
     column: int
@@ -54,11 +54,13 @@ class Head:
 
 @dataclass(slots=True)
 class _Layout:
+    """The edits of a source so far, and the keys and dashes that they move."""
+
     source: Source
     heads: list[Head] = field(default_factory=list)
     edits: list[Edit] = field(default_factory=list)
     growth: Counter[int] = field(default_factory=Counter)
-    """By line, the characters that it has more, but for its indentation."""
+    """The number of characters by which edits lengthen each line, without its indentation."""
 
     def column(self, offset: int) -> int:
         return offset - self.source.line_start(offset)
@@ -76,8 +78,8 @@ class _Layout:
             self.edits.append(Edit(start, end, " " * column))
 
 
-def laid_out(source: Source, root: Mapping) -> str:
-    """Return the text with the house's indentation, spacing and quotes; raises UnusualError."""
+def lay_out(source: Source, root: Mapping) -> str:
+    """Return the text with the indentation, spacing and quotes of the house style; raises UnusualError."""
     layout = _Layout(source)
     _value(layout, root, 0, 0)
     _comments(layout, root)
@@ -103,7 +105,7 @@ def _mapping(layout: _Layout, node: Mapping, column: int) -> None:
 
 
 def _head(layout: _Layout, start: int, column: int) -> None:
-    """Indent the line that a key or a dash begins; one behind a dash was moved with it."""
+    """Indent the line that begins with a key or dash; a key after a dash was moved with the dash."""
     begin = layout.source.line_start(start)
     before = layout.source.text[begin:start]
     if before.strip(" -"):
@@ -114,7 +116,7 @@ def _head(layout: _Layout, start: int, column: int) -> None:
 
 
 def _colon(layout: _Layout, entry: Entry) -> None:
-    """Put the colon beside its key, and one blank behind it."""
+    """Put the colon right after its key, and one blank after the colon."""
     key, value, text = entry.key, entry.value, layout.source.text
     colon = COLON.match(text, key.end)
     if colon is None:
@@ -132,8 +134,8 @@ def _is_unwritten(node: Node) -> bool:
 def _sequence(layout: _Layout, node: Sequence, column: int) -> None:
     text, done = layout.source.text, node.start
     for item in node.items:
-        between = COMMENT.sub(lambda found: "#" * len(found[0]), text[done : item.start])
-        dash = DASH.search(between)
+        gap = COMMENT.sub(lambda match: "#" * len(match[0]), text[done : item.start])
+        dash = DASH.search(gap)
         if dash is None:
             raise UnusualError
         start = done + dash.start()
@@ -155,17 +157,17 @@ def _value(layout: _Layout, node: Node, column: int, shift: int) -> None:
 
 
 def _leaf(layout: _Layout, node: Node, shift: int) -> None:
-    """Lay out what has no blocks in it: on one line anew, over several moved as a whole."""
+    """Lay out a value without blocks: anew if it is on one line, else moved as a whole."""
     text = layout.source.text
     if layout.same_line(node.start, node.end):
-        layout.replace(node.start, node.end, value_layout(text, node))
+        layout.replace(node.start, node.end, inline_layout(text, node))
     indentation = INDENTATION if isinstance(node, Scalar) else INDENTATION_OF_FLOW
-    for found in indentation.finditer(text, node.start, node.end):
-        layout.indent(*found.span(), max(0, len(found[0]) + shift))
+    for match in indentation.finditer(text, node.start, node.end):
+        layout.indent(*match.span(), max(0, len(match[0]) + shift))
 
 
 def _comments(layout: _Layout, root: Mapping) -> None:
-    """Move comments with what they stand above, and keep those behind something in their column."""
+    """Move comments with what they stand above, and keep the column of those at the end of a line."""
     source = layout.source
     moved = {edit.start for edit in layout.edits}
     for start, _ in comments_in(source.text, root):
@@ -180,37 +182,37 @@ def _comments(layout: _Layout, root: Mapping) -> None:
 
 
 def _comment_column(layout: _Layout, start: int) -> int:
-    """Return the column of what follows a comment or of a block it stands in, where it has that now."""
+    """Return the new column of a comment: that of the head below it or of a block around it that is in its column."""
     line, column = layout.source.line_number(start), layout.column(start)
-    place = bisect(layout.heads, line, key=lambda head: head.line)
+    index = bisect(layout.heads, line, key=lambda head: head.line)
     nearest: Head | None = None
-    for head in chain(_next_line(layout.heads, place), _open(layout.heads, place, column)):
+    for head in chain(_heads_of_next_line(layout.heads, index), _open_heads(layout.heads, index, column)):
         if head.column == column:
             return head.wanted
         nearest = nearest or head
     return max(0, column + nearest.wanted - nearest.column) if nearest else column
 
 
-def _next_line(heads: list[Head], place: int) -> Iterator[Head]:
-    line = heads[place].line if place < len(heads) else 0
-    while place < len(heads) and heads[place].line == line:
-        yield heads[place]
-        place += 1
+def _heads_of_next_line(heads: list[Head], index: int) -> Iterator[Head]:
+    line = heads[index].line if index < len(heads) else 0
+    while index < len(heads) and heads[index].line == line:
+        yield heads[index]
+        index += 1
 
 
-def _open(heads: list[Head], place: int, column: int) -> Iterator[Head]:
-    """Yield the heads before a place whose blocks could go on there in a column, the nearest first."""
+def _open_heads(heads: list[Head], index: int, column: int) -> Iterator[Head]:
+    """Yield the heads before an index whose blocks could continue there in a column, the nearest first."""
     least: int | None = None
-    while place and (least is None or least > column):
-        place -= 1
-        if least is None or heads[place].column < least:
-            least = heads[place].column
-            yield heads[place]
+    while index and (least is None or least > column):
+        index -= 1
+        if least is None or heads[index].column < least:
+            least = heads[index].column
+            yield heads[index]
 
 
 def _trailing_blanks(layout: _Layout, root: Mapping) -> None:
     text = layout.source.text
-    for begin, end in between(text, root):
-        for found in TRAILING.finditer(text, begin, end):
-            if found.end() < end or end == len(text):  # else a value follows
-                layout.replace(*found.span(), "")
+    for begin, end in gaps_between_leaves(text, root):
+        for match in TRAILING.finditer(text, begin, end):
+            if match.end() < end or end == len(text):  # else a value follows
+                layout.replace(*match.span(), "")

@@ -1,4 +1,4 @@
-"""What a text has between its values: structure and comments."""
+"""The leaves of a document (keys, single values, aliases), and the text between them: punctuation and comments."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def leaves_in(node: Node) -> Iterator[Node]:
 
 
 def comments_in(text: str, root: Node) -> Iterator[tuple[int, int]]:
-    """Yield where comments begin and end; one behind the header of a block of text is part of that."""
-    for begin, end in between(text, root):
-        for found in COMMENT.finditer(text, begin, end):
-            yield found.span()
+    """Yield the start and end of each comment; one after the header of a block of text belongs to that text."""
+    for begin, end in gaps_between_leaves(text, root):
+        for match in COMMENT.finditer(text, begin, end):
+            yield match.span()
 
 
-def between(text: str, root: Node) -> Iterator[tuple[int, int]]:
-    """Yield the stretches of a text that are in none of its values."""
+def gaps_between_leaves(text: str, root: Node) -> Iterator[tuple[int, int]]:
+    """Yield the start and end of each stretch of a text that is in none of its leaves."""
     done = 0
     for leaf in leaves_in(root):
         yield done, max(done, leaf.start)

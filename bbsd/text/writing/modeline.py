@@ -7,14 +7,14 @@ from itertools import takewhile
 
 MODELINE = re.compile(r"\s*#\s*yaml-language-server\s*:.*?\$schema=(?P<schema>\S+)")
 ANYWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|[/\\~]|none$")
-"""How a schema begins that is the same from every folder: a URL, a drive, an absolute path, no schema at all."""
+"""The beginnings of schemas that are the same from every folder: a URL, a drive, an absolute path, no schema."""
 
 
 def without_relative_modeline(text: str) -> str:
     """Return a text without the comments at its head that name a schema by a relative path.
 
-    From another folder the path leads elsewhere or nowhere. It is not written anew, since what is written would then
-    depend on the folder that it is written into.
+    From another folder the path leads elsewhere or nowhere. It is not adapted, since the text would then depend on the
+    folder that it is written into.
     """
     lines = text.split("\n")
     head = list(takewhile(lambda line: not line.strip() or line.lstrip().startswith("#"), lines))
@@ -22,5 +22,5 @@ def without_relative_modeline(text: str) -> str:
 
 
 def _is_relative(line: str) -> bool:
-    found = MODELINE.match(line)
-    return found is not None and ANYWHERE.match(found["schema"]) is None
+    match = MODELINE.match(line)
+    return match is not None and ANYWHERE.match(match["schema"]) is None

@@ -1,4 +1,4 @@
-"""Single values as YAML text: plain where every reader takes them for what they are, else in quotes."""
+"""Single values as YAML text: plain where every reader of YAML 1.1 and 1.2 understands them, else in quotes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 
 from bbsd.text.reading.traps import GLUED
 
-# Not an indicator, and what may look like one only where no blank follows; see YAML 1.2, 7.3.3 Plain Style.
+# No indicator, or a minus without a blank after it; see YAML 1.2, 7.3.3 Plain Style.
 SAFE_START = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`]|-[^\s\-,\[\]{}])")
 UNSAFE = re.compile(r":(?:\s|$)|\s#|^\.\.\.|\s$")
 UNSAFE_IN_FLOW = re.compile(r"[,\[\]{}:?]")
@@ -17,7 +17,7 @@ ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 def scalar_text(value: str | float | bool | None, flow: bool = False) -> str:
     """Return a single value as YAML on one line; `flow` says whether it stands inside {...} or [...].
 
-    Raises TypeError for what is none of these plain values.
+    Raises TypeError for a value of any other type.
     """
     match value:
         case None:
@@ -43,8 +43,8 @@ def _float_text(value: float) -> str:
 
 
 def is_plain(text: str, flow: bool = False) -> bool:
-    """Say whether a text needs no quotes, `flow` as for `scalar_text`."""
-    from bbsd.text.schema import is_text_everywhere
+    """Say whether a text needs no quotes; `flow` says whether it stands inside {...} or [...]."""
+    from bbsd.text.core_schema import is_text_everywhere
 
     if not text.isprintable() or not SAFE_START.match(text) or UNSAFE.search(text) or GLUED.match(text):
         return False
@@ -73,8 +73,7 @@ def _escaped(character: str) -> str:
 def literal_lines(text: str) -> list[str] | None:
     """Return the header and the lines, not indented, of a literal block, or None if the text cannot be one.
 
-    It can if it has more than one line and each is visible: printable, with something on it at both its
-    ends.
+    It can if it has more than one line, and each is printable, not empty, and neither begins nor ends with a blank.
     """
     lines = text.removesuffix("\n").split("\n")
     if "\n" not in text or not all(line.isprintable() and line == line.strip() != "" for line in lines):

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 
 WIDTH = 100
 STEP = "  "
-FLOW_KEYS = frozenset({"when"})  # whose mappings read best on one line
+FLOW_KEYS = frozenset({"when"})  # keys whose mappings read best on one line
 
 
 def write(data: dict[str, Data]) -> str:
-    """Return a mapping as YAML text that `read` reads as the same data, with blank lines around its blocks.
+    """Return a mapping as YAML text that reads as the same data, with blank lines around its blocks.
 
     Texts are quoted only where a reader of YAML 1.2 or 1.1 would take them for something else. Raises
     TypeError for anything but dicts with text keys, lists and single values.
@@ -32,14 +32,14 @@ def write(data: dict[str, Data]) -> str:
 
 
 def entry_lines(key: str, value: Data, indent: int = 0) -> list[str]:
-    """Return the lines of a key with its value, to be indented by so many blanks."""
+    """Return the lines of a key with its value, which stand `indent` blanks from the left."""
     head = f"{key_text(key)}:"
     first, *rest = value_lines(value, indent, indent + len(head) + 1, key)
     return [f"{head} {first}" if first else head, *rest]
 
 
 def value_lines(value: Data, indent: int, column: int, key: str = "") -> list[str]:
-    """Return what follows a key on its line ('' for a block) and the lines below, indented from the key.
+    """Return the text after a key on its line ('' for a block) and the lines below, indented from the key.
 
     The key stands `indent` blanks from the left, and its value would begin at `column`.
     """
@@ -53,7 +53,7 @@ def value_lines(value: Data, indent: int, column: int, key: str = "") -> list[st
 
 def _block_lines(value: Data, indent: int) -> list[str]:
     if isinstance(value, dict):
-        return [line for key, each in value.items() for line in entry_lines(key, each, indent)]
+        return [line for key, item in value.items() for line in entry_lines(key, item, indent)]
     items = value if isinstance(value, list) else [value]
     return [line for item in items for line in _item_lines(item, indent)]
 
@@ -70,20 +70,19 @@ def _indented(lines: list[str]) -> list[str]:
 
 
 def _folded(text: str, indent: int, column: int) -> list[str]:
-    """Return a text on one line, or broken at its blanks where it is long and YAML puts it together again."""
+    """Return a text on one line, or broken at blanks where it is long and YAML will join the lines again."""
     if column + len(text) <= WIDTH or "  " in text or not is_plain(text):
         return [scalar_text(text)]
     width = WIDTH - indent - len(STEP)
-    lead = "x" * (column - indent - len(STEP))  # what stands before the first line
+    lead = "x" * (column - indent - len(STEP))  # in place of the key before the first line
     lines = wrap(lead + text, width, break_long_words=False, break_on_hyphens=False)
     return [lines[0][len(lead) :], *lines[1:]]
 
 
 def _inline(value: Data, column: int, key: str) -> str | None:
-    """Return a value on one line if that is how it is written at this column, else None.
+    """Return a value on one line if the style writes it so at this column, else None.
 
-    Single values and empty collections always are; lists without mappings and what is under `when`, where
-    they fit.
+    Single values and empty collections always are; lists without mappings and mappings under `when`, where they fit.
     """
     if not isinstance(value, dict | list) or not value:
         return flow_text(value)
@@ -94,16 +93,16 @@ def _inline(value: Data, column: int, key: str) -> str | None:
 
 
 def has_mapping(value: Data) -> bool:
-    """Say whether a value is a mapping with something in it, or a list with such a mapping in it."""
+    """Say whether a value is a mapping that is not empty, or a list that contains one."""
     if isinstance(value, list):
         return any(has_mapping(item) for item in value)
     return isinstance(value, dict) and bool(value)
 
 
 def flow_text(value: Data) -> str:
-    """Return a value on one line, collections in brackets and braces."""
+    """Return a value on one line, with collections in brackets and braces."""
     if isinstance(value, dict):
-        return "{" + ", ".join(flow_entry(key, each) for key, each in value.items()) + "}"
+        return "{" + ", ".join(flow_entry(key, item) for key, item in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(flow_text(item) for item in value) + "]"
     return scalar_text(value, flow=True)

@@ -1,7 +1,7 @@
-"""Edits of a YAML text that touch one entry and leave the rest of the file as it is, byte for byte.
+"""Edits of a YAML text that change one entry or item and leave the rest of the file as it is, byte for byte.
 
-Each returns the new text, or None where it has no way to do it. The text is a proposal: `patch` reads it
-again.
+Each edit returns the new text, or None where it cannot be done this way. The text is a proposal: `patch` reads it again
+and checks it.
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ AFTER_BLANK_LINE = re.compile(r"(?:\r\n|\r|\n)[ \t]*(?:\r\n|\r|\n)\Z")
 LINE_BREAK = re.compile(r"\r\n|\r|\n")
 
 
-def replaced_entry(source: Source, parent: Mapping, key: str, value: Data) -> str | None:
+def replace_entry(source: Source, parent: Mapping, key: str, value: Data) -> str | None:
     """Give an entry of a mapping another value."""
     entry = parent.entries[key]
     if parent.flow:
         flow = f": {flow_text(value)}"
-        return _spliced_flow(source, entry.key.end, entry.value.end, flow, value)
+        return _splice_flow(source, entry.key.end, entry.value.end, flow, value)
     colon = COLON.match(source.text, entry.key.end)
-    return _replaced_in_block(source, entry, key, value, colon.end()) if colon else None
+    return _replace_in_block(source, entry, key, value, colon.end()) if colon else None
 
 
-def _replaced_in_block(source: Source, entry: Entry, key: str, value: Data, head_end: int) -> str:
+def _replace_in_block(source: Source, entry: Entry, key: str, value: Data, head_end: int) -> str:
     node, indent = entry.value, _column(source, entry.key.start)
-    flow = _like(node, value, source, head_end)
+    flow = _kept_inline(node, value, source, head_end)
     first, *rest = flow or value_lines(value, indent, _column(source, head_end) + 1, key)
-    below = _joined(source, rest, indent)
+    below = _indented_below(source, rest, indent)
     is_beside = source.line_number(node.start) == source.line_number(head_end)
     replaced = (
         _beside_key(source, node, first, below)
@@ -48,19 +48,19 @@ def _replaced_in_block(source: Source, entry: Entry, key: str, value: Data, head
 
 
 def _beside_key(source: Source, node: Node, first: str, below: str) -> str:
-    """Return what takes the place of a value that begins beside its key, with the comment behind it."""
+    """Return the text that replaces a value beside its key, with the comment after it."""
     last = written_end(source, node)
-    return _headed(first, below, source.text[last : source.line_end(last)].rstrip())
+    return _with_comment(first, below, source.text[last : source.line_end(last)].rstrip())
 
 
 def _below_key(source: Source, node: Node, head_end: int, first: str, below: str) -> str:
-    """Return what takes the place of a block, with the comments between its key and it."""
+    """Return the text that replaces a block, with the comments between its key and it."""
     above = source.text[head_end : source.line_start(node.start)]
-    return _headed(first, below, above.rstrip()) if first else above + below.lstrip("\r\n")
+    return _with_comment(first, below, above.rstrip()) if first else above + below.lstrip("\r\n")
 
 
-def _headed(first: str, below: str, comment: str) -> str:
-    """Return what follows a key; a comment can stand before a block, but not inside a folded text."""
+def _with_comment(first: str, below: str, comment: str) -> str:
+    """Return a value with its comment, placed before a block but after a folded text, which cannot contain it."""
     is_folded = below and first and not first.startswith("|")
     head = f" {first}" if first else ""
     return head + below + comment if is_folded else head + comment + below
@@ -70,50 +70,48 @@ def _rest(source: Source, offset: int) -> str:
     return source.text[offset:] or line_break(source)
 
 
-def _like(node: Node, value: Data, source: Source, head_end: int) -> list[str] | None:
-    """Return a value on one line if the one it replaces was a collection on one line and it fits."""
+def _kept_inline(node: Node, value: Data, source: Source, head_end: int) -> list[str] | None:
+    """Return a value on one line if it replaces a collection in brackets and fits there, else None."""
     if not isinstance(node, Mapping | Sequence) or not node.flow or not suits_flow(value):
         return None
     flow = flow_text(value)
     return [flow] if _column(source, head_end) + 1 + len(flow) <= WIDTH else None
 
 
-def added_entry(
-    source: Source, parent: Mapping, key: str, value: Data, after: str | None = None
-) -> str | None:
-    """Add an entry to a mapping, behind the entry of the key `after` if there is one, else at the end."""
+def add_entry(source: Source, parent: Mapping, key: str, value: Data, after: str | None = None) -> str | None:
+    """Add an entry to a mapping, after the entry of the key `after` if there is one, else at the end."""
     entries = [*parent.entries.values()]
     if parent.flow:
         at, flow = parent.end - 1, flow_entry(key, value)
         if entries:
             at, flow = entries[-1].value.end, f", {flow}"
-        return _spliced_flow(source, at, at, flow, value)
+        return _splice_flow(source, at, at, flow, value)
     before = entries[-1] if after is None else parent.entries.get(after, entries[-1])
     column = _column(source, entries[0].key.start)
     at = _behind_comments(source, written_end(source, before.value), max(column, 1))
     gap = _gap(source, entries, before, value) if column == 0 else ""
     closing = gap if before is not entries[-1] and not BLANK_LINE.match(source.text, at) else ""
-    lines = _joined(source, entry_lines(key, value, column), column)
+    lines = _indented_below(source, entry_lines(key, value, column), column)
     return source.text[:at] + gap + lines + closing + _rest(source, at)
 
 
 def _gap(source: Source, entries: list[Entry], before: Entry, value: Data) -> str:
-    """Return the additional line break before a new block at the top where the file has blank lines there."""
+    """Return a line break to add before a new block at the top if the file has blank lines between entries."""
     between = source.text[entries[0].key.start : entries[-1].key.start]
     has_blocks = isinstance(value, dict | list) or isinstance(before.value, Mapping | Sequence)
     return line_break(source) if has_blocks and BLANK_LINE.search(between) else ""
 
 
 def _behind_comments(source: Source, offset: int, indent: int) -> int:
-    """Return the end of the line of an offset, or of the comments below it that are indented as far."""
+    """Return the end of the line of an offset, or of the comments below it that have at least that indent."""
     end = source.line_end(offset)
-    while (found := COMMENT_LINE.match(source.text, end)) and len(found[1]) >= indent:
-        end = found.end()
+    while (match := COMMENT_LINE.match(source.text, end)) and len(match[1]) >= indent:
+        end = match.end()
     return end
 
 
-def deleted_entry(source: Source, parent: Mapping, key: str) -> str | None:
-    """Remove an entry that has lines of its own from a mapping that keeps others."""
+def delete_entry(source: Source, parent: Mapping, key: str) -> str | None:
+    """Remove an entry that has lines of its own from a mapping that keeps other entries."""
     entry, text = parent.entries[key], source.text
     start = source.line_start(entry.key.start)
     if parent.flow or len(parent.entries) == 1 or text[start : entry.key.start].strip():
@@ -124,15 +122,15 @@ def deleted_entry(source: Source, parent: Mapping, key: str) -> str | None:
 
 
 def _without_break(text: str) -> str:
-    found = LINE_BREAK.match(text)
-    return text[found.end() :] if found else text
+    match = LINE_BREAK.match(text)
+    return text[match.end() :] if match else text
 
 
-def replaced_item(source: Source, parent: Sequence, index: int, value: Data) -> str | None:
-    """Give an item of a list another value: in brackets any that fits, else a single one for a single one."""
+def replace_item(source: Source, parent: Sequence, index: int, value: Data) -> str | None:
+    """Give an item of a list another value: any that fits in brackets, else a single value for a single one."""
     item = parent.items[index]
     if parent.flow:
-        return _spliced_flow(source, item.start, item.end, flow_text(value), value)
+        return _splice_flow(source, item.start, item.end, flow_text(value), value)
     if not isinstance(item, Scalar) or item.style in {"|", ">"} or isinstance(value, dict | list):
         return None
     first, *rest = value_lines(value, 0, _column(source, item.start))
@@ -142,11 +140,11 @@ def replaced_item(source: Source, parent: Sequence, index: int, value: Data) -> 
 def suits_flow(value: Data) -> bool:
     """Say whether a value may stand between brackets: there is no list of mappings in it."""
     if isinstance(value, dict):
-        return all(suits_flow(each) for each in value.values())
+        return all(suits_flow(item) for item in value.values())
     return not isinstance(value, list) or not has_mapping(value)
 
 
-def _spliced_flow(source: Source, start: int, end: int, flow: str, value: Data) -> str | None:
+def _splice_flow(source: Source, start: int, end: int, flow: str, value: Data) -> str | None:
     line = source.text[source.line_start(start) : start] + flow + source.text[end : source.line_end(end)]
     if isinstance(value, dict | list) and (not suits_flow(value) or len(line) > WIDTH):
         return None
@@ -154,7 +152,7 @@ def _spliced_flow(source: Source, start: int, end: int, flow: str, value: Data) 
 
 
 def written_end(source: Source, node: Node) -> int:
-    """Return where the text of a node ends, without the blank lines that a block scalar claims."""
+    """Return the offset at which a node ends, without the blank lines after a block scalar."""
     return node.start + len(source.text[node.start : node.end].rstrip())
 
 
@@ -163,11 +161,11 @@ def _column(source: Source, offset: int) -> int:
 
 
 def line_break(source: Source) -> str:
-    """Return how the lines of a file end."""
-    found = LINE_BREAK.search(source.text)
-    return found[0] if found else "\n"
+    """Return the line break that a file uses."""
+    match = LINE_BREAK.search(source.text)
+    return match[0] if match else "\n"
 
 
-def _joined(source: Source, lines: list[str], indent: int) -> str:
-    """Return lines to be put behind another line, indented."""
+def _indented_below(source: Source, lines: list[str], indent: int) -> str:
+    """Return lines as text that continues another line: each after a line break, indented."""
     return "".join(line_break(source) + " " * indent + line for line in lines)

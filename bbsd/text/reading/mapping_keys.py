@@ -1,4 +1,4 @@
-"""The keys of a mapping: texts, each once, none with a meaning that only YAML 1.1 knows."""
+"""The keys of a mapping: each must be a text, be given once, and not be the merge key of YAML 1.1."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ MERGE = "<<"
 def entries_of(
     source: Source, pieces: Iterable[Piece], flow: bool
 ) -> tuple[dict[str, Entry], list[Diagnosis]]:
-    """Return the entries of a mapping by key, as far as they can be kept, and what is wrong with the keys.
+    """Return the usable entries of a mapping by key, and the mistakes in its keys.
 
-    Of a key that is given twice the first is kept; a number or truth as a key is kept as it is written.
+    Of a key that is given twice the first entry is kept; a number or truth as a key is kept as it is written.
     """
     entries: dict[str, Entry] = {}
     mistakes: list[Diagnosis] = []

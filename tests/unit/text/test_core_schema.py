@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from bbsd.text.schema import is_text, is_text_everywhere, meaning
+from bbsd.text.core_schema import is_text, is_text_everywhere, meaning
 
 
 @pytest.mark.parametrize(

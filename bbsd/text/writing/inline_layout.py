@@ -1,4 +1,4 @@
-"""Values on one line in the house's style: one blank behind commas and colons, quotes where they are needed."""
+"""Values on one line in the house style: one blank after commas and colons, quotes only where they are needed."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ PUNCTUATION = re.compile(r"[\s,:\[\]{}]*")
 BLANKS = re.compile(r"\s+")
 
 
-def value_layout(text: str, node: Node, flow: bool = False) -> str:
-    """Return a value that is written on one line as the house writes it, one written unusually as it is."""
+def inline_layout(text: str, node: Node, flow: bool = False) -> str:
+    """Return a value that is written on one line in the house style; what is written unusually is unchanged."""
     if isinstance(node, Scalar):
-        return _scalar(text, node, flow)
+        return _scalar_layout(text, node, flow)
     if isinstance(node, Alias):
         return text[node.start : node.end]
     pieces, done = [], node.start
     for leaf in leaves_in(node):
         if leaf.start == leaf.end or not PUNCTUATION.fullmatch(text, done, leaf.start):
             return text[node.start : node.end]
-        pieces += [_punctuation(text[done : leaf.start]), value_layout(text, leaf, flow=True)]
+        pieces += [_punctuation_layout(text[done : leaf.start]), inline_layout(text, leaf, flow=True)]
         done = leaf.end
     if not PUNCTUATION.fullmatch(text, done, node.end):
         return text[node.start : node.end]
-    return "".join([*pieces, _punctuation(text[done : node.end])])
+    return "".join([*pieces, _punctuation_layout(text[done : node.end])])
 
 
-def _scalar(text: str, node: Scalar, flow: bool) -> str:
-    """Return a single value without quotes that it does not need."""
+def _scalar_layout(text: str, node: Scalar, flow: bool) -> str:
+    """Return a single value without the quotes that it does not need."""
     written = text[node.start : node.end]
     is_quoted = node.style in QUOTES and written[:1] == node.style
     return node.text if is_quoted and is_plain(node.text, flow) else written
 
 
-def _punctuation(written: str) -> str:
-    """Return what stands between two values, with a blank behind commas and colons only."""
+def _punctuation_layout(written: str) -> str:
+    """Return the punctuation between two values, with blanks after commas and colons only."""
     marks = BLANKS.sub("", written).replace(",", ", ").replace(":", ": ")
     return marks.replace(", ]", "]").replace(", }", "}")

@@ -1,4 +1,4 @@
-"""What a plain scalar means in YAML 1.2's core schema, and what YAML 1.1 would take it for."""
+"""The types of plain scalars: in YAML 1.2's core schema, which specs are read by, and in YAML 1.1."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _old_tag: Callable[[type[ScalarNode], str, tuple[bool, bool]], str] = Resolver()
 
 
 def meaning(text: str) -> str | int | float | bool | None:
-    """Return the number, truth, null or text that a plain scalar is; raises ValueError for 4300 digits."""
+    """Return the number, truth, null or text that a plain scalar means; raises ValueError for 4300 digits."""
     tag = _core_tag(ScalarNode, text, PLAIN)
     value: str | int | float | bool | None = _CORE.yaml_constructors[tag](_CORE, ScalarNode(tag, text))
     return value
 
 
 def is_text(text: str) -> bool:
-    """Say whether a plain scalar is a text."""
+    """Say whether a plain scalar is a text in YAML 1.2."""
     return _core_tag(ScalarNode, text, PLAIN) == TEXT
 
 
