@@ -14,8 +14,8 @@ from bbsd.language.meaning.structure import OPEN_LAYER
 from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.text import (
     TooLargeError,
-    as_read,
     differences,
+    read_back,
     replace_blocks,
     with_change,
     without_relative_modeline,
@@ -58,7 +58,7 @@ def _fits(loaded: Loaded, largest: Architecture) -> bool:
     data: Data = loaded.data
     for path, value in spec_changes(loaded.meaning, largest, NO_WORDS).items():
         data = with_change(data, path, value)
-    return isinstance(data, dict) and as_read(loaded.source.file, write(data)) is not None
+    return isinstance(data, dict) and read_back(loaded.source.file, write(data)) is not None
 
 
 def _text(loaded: Loaded, architecture: Architecture, most_words: int) -> str:

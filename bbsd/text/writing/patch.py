@@ -61,13 +61,13 @@ def _change(document: Document, path: DataPath, value: Data | Deletion, after: s
         block = value if length == len(path) else _at(wanted, path[:length])
         text = _edit(document, path[:length], block, after)
         if text is not None:
-            result = as_read(document.source.file, text)
+            result = read_back(document.source.file, text)
             if result is not None and _identity(result.data) == _identity(wanted):
                 return result
     raise TooLargeError(path)
 
 
-def as_read(file: str, text: str) -> Document | None:
+def read_back(file: str, text: str) -> Document | None:
     """Return the document that a text is read as from a file of its own; None where it would be refused."""
     if len(text.encode()) > MAX_BYTES:
         return None
