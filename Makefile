@@ -3,10 +3,10 @@
 PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
-# The peers have one of their own: what they need, numba would import in every process that is measured.
+# The peers have one of their own: numba would import what they need in every process that is measured.
 PEERS := .venv-peers
 
-.PHONY: demo test lint unit claims worlds arms figures bench clean
+.PHONY: demo test lint unit claims worlds arms fuzz figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -22,14 +22,19 @@ lint: $(VENV)/.test
 unit: $(VENV)/.test
 	$(BIN)/pytest -n 2 --dist worksteal
 
+# What the method achieves: experiments/.
 claims: $(VENV)/.demo
-	$(BIN)/python experiments/claims.py
+	$(BIN)/python -m experiments.claims
 
 worlds: $(VENV)/.demo
-	$(BIN)/python experiments/worlds.py
+	$(BIN)/python -m experiments.worlds $(WORLD)
 
 arms: $(VENV)/.demo
-	$(BIN)/python experiments/arms.py
+	$(BIN)/python -m experiments.arms
+
+# Damaged and heavy specs: fuzzing/.
+fuzz: $(VENV)/.demo
+	$(BIN)/python -m fuzzing --seconds $(or $(SECONDS),60)
 
 # The pictures of episodes in README.md and docs/cookbook.md.
 figures: $(VENV)/.demo
@@ -41,6 +46,7 @@ figures: $(VENV)/.demo
 	  $(BIN)/bbsd evaluate specs/$${world}_hand.yaml --plot docs/images/$$world.png || exit 1; \
 	done
 
+# How fast it is: benchmarks/, all of it or one PART.
 bench: $(VENV)/.demo $(PEERS)/.bench
 	$(PEERS)/bin/python -m benchmarks --python $(BIN)/python $(PART)
 

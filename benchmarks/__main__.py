@@ -1,4 +1,4 @@
-"""`python -m benchmarks`: measures everything in alternation and writes docs/benchmarks.md; 1 where the guard fails."""
+"""`python -m benchmarks`: measures all parts and writes docs/benchmarks.md; fails where vectorization was lost."""
 
 from __future__ import annotations
 
@@ -7,61 +7,73 @@ import os
 import sys
 from pathlib import Path
 
-from benchmarks import growth, guard, large, mobile, prices, processes, rollout, together, whole
-from benchmarks.page import asked_section, machine
-from benchmarks.timing import on_one_core
+from benchmarks import processes
+from benchmarks.parts import (
+    growth,
+    large_designs,
+    lifting_rollout,
+    mobile_rollout,
+    parallel,
+    prices,
+    vectorization,
+    whole_designs,
+    whole_processes,
+)
+from benchmarks.report import goals_section, machine
+from benchmarks.timing import pin_to_one_core
 
-SECTIONS = {
-    "rollout": rollout,
-    "mobile": mobile,
-    "whole": whole,
-    "guard": guard,
-    "large": large,
-    "growth": growth,
-    "processes": processes,
-    "together": together,
-    "prices": prices,
-}
+IN_ORDER = (
+    lifting_rollout,
+    mobile_rollout,
+    whole_designs,
+    vectorization,
+    large_designs,
+    growth,
+    whole_processes,
+    parallel,
+    prices,
+)
+PARTS = {part.__name__.rpartition(".")[2]: part for part in IN_ORDER}
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 HEAD = """# Benchmarks
 
-Written by `make bench`. Every ratio is of times taken in alternation in one run, on one core but where several are
-spoken of; absolute times are this machine's. What is measured, and how, is in `benchmarks/`; a part alone is measured
-by `make bench PART=rollout`.
-"""
+Written by `make bench`. Each ratio compares times that were taken in alternation in one run, on one core unless a
+section says otherwise; absolute times are those of this machine. The code is in `benchmarks/`;
+`make bench PART=lifting_rollout` measures one part and prints it."""
 
 
 def main() -> int:
-    """Measure, write, and fail where vectorization was lost."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure bbsd.")
+    """Measure, write the page, and return 1 where a goal that is required was missed."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure how fast bbsd is.")
     parser.add_argument(
-        "--quick", action="store_true", help="small sizes, few rounds; prints and writes no file"
+        "--quick", action="store_true", help="take small sizes and few rounds; print, and write no file"
     )
-    parser.add_argument("--python", help="whose processes are measured; this one if not given")
+    parser.add_argument("--python", help="measure the processes of this Python instead of the running one")
     parser.add_argument(
-        "parts", nargs="*", metavar="PART", help=f"print only these, of {', '.join(SECTIONS)}"
+        "parts", nargs="*", metavar="PART", help=f"measure and print only these parts: {', '.join(PARTS)}"
     )
     arguments = parser.parse_args()
-    if unknown := set(arguments.parts) - set(SECTIONS):
-        parser.error(f"there is no part {', '.join(sorted(unknown))}; there are {', '.join(SECTIONS)}")
+    if unknown := set(arguments.parts) - set(PARTS):
+        parser.error(f"there is no part {', '.join(sorted(unknown))}; there are {', '.join(PARTS)}")
     if arguments.python:
         os.environ[processes.PYTHON_VARIABLE] = str(Path(arguments.python).absolute())
-    on_one_core()
-    parts, asked = [HEAD, machine()], []
-    for name in arguments.parts or SECTIONS:
+    pin_to_one_core()
+    conditions, sections = machine(), []
+    for name in arguments.parts or PARTS:
         print(f"{name} ...", file=sys.stderr)
-        text, bounds = SECTIONS[name].section(quick=arguments.quick)
-        parts.append(text)
-        asked += bounds
-    page = "\n\n".join([*parts[:2], asked_section(asked), *parts[2:]]) + "\n"
+        sections.append(PARTS[name].section(quick=arguments.quick))
+    goals = [goal for section in sections for goal in section.goals]
+    page = (
+        "\n\n".join([HEAD, conditions, *(part.text() for part in (goals_section(goals), *sections))]) + "\n"
+    )
     if arguments.quick or arguments.parts:
         print(page)
     else:
         PAGE.write_text(page, encoding="utf-8")
-    lost = [each.what for each in asked if each.what.startswith("guard") and not each.met]
-    print("\n".join(lost), file=sys.stderr)
-    return 1 if lost else 0
+    missed = [goal.name for goal in goals if goal.required and not goal.met]
+    print("\n".join(missed), file=sys.stderr)
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Specs as nobody means them: damaged in their text, in their data and in their expressions, or made up whole."""
+"""Random damage to specs: to their text, their data and their expressions."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from bbsd.expression.vocabulary import RESERVED
 
 if TYPE_CHECKING:
     import random
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     Damage = Callable[[str, random.Random], str]
+    """Maps a text and a random generator to a damaged text."""
 
 # fmt: off
 SIGNS = [
@@ -38,119 +39,119 @@ EXPRESSIONS = [
 WORDS = [*sorted(RESERVED), *SIGNS]
 
 
-def characters(text: str, dice: random.Random) -> str:
-    """A character replaced, put in or taken out."""
-    place = dice.randrange(len(text) + 1)
+def change_character(text: str, dice: random.Random) -> str:
+    """Replace, insert or delete a character."""
+    index = dice.randrange(len(text) + 1)
     other = chr(
         dice.choice((dice.randrange(32, 127), dice.randrange(1, 0x2FFF), dice.randrange(0x10000, 0x1FFFF)))
     )
-    return text[:place] + other + text[place + dice.randint(0, 2) :]
+    return text[:index] + other + text[index + dice.randint(0, 2) :]
 
 
-def lines(text: str, dice: random.Random) -> str:
-    """A line taken out, doubled, moved in or out, or put in the place of another."""
+def change_line(text: str, dice: random.Random) -> str:
+    """Delete, double, indent or replace a line."""
     parts = text.split("\n")
-    place, other = dice.randrange(len(parts)), dice.randrange(len(parts))
-    parts[place] = dice.choice(
-        ("", parts[other], "  " * dice.randint(0, 5) + parts[place].strip(), parts[place] * 2)
+    index, other = dice.randrange(len(parts)), dice.randrange(len(parts))
+    parts[index] = dice.choice(
+        ("", parts[other], "  " * dice.randint(0, 5) + parts[index].strip(), parts[index] * 2)
     )
     return "\n".join(parts)
 
 
-def words(text: str, dice: random.Random) -> str:
-    """A word or sign in the place of another."""
+def replace_word(text: str, dice: random.Random) -> str:
+    """Replace a word or sign by another."""
     parts = re.split(r"(\W)", text)
     parts[dice.randrange(len(parts))] = dice.choice((*WORDS, *NAMES, *EXPRESSIONS, *parts))
     return "".join(parts)
 
 
-def splices(text: str, dice: random.Random) -> str:
-    """A part of the text once more, somewhere else."""
+def repeat_part(text: str, dice: random.Random) -> str:
+    """Repeat a part of the text somewhere else."""
     first, last = sorted((dice.randrange(len(text) + 1), dice.randrange(len(text) + 1)))
     part = text[first : min(last, first + 200)]
-    place = dice.randrange(len(text) + 1)
-    return text[:place] + part + text[place:]
+    index = dice.randrange(len(text) + 1)
+    return text[:index] + part + text[index:]
 
 
-def leaf(dice: random.Random) -> Any:  # noqa: ANN401 - any plain value
-    """A value that has no business where it will stand."""
+def wrong_value(dice: random.Random) -> Any:  # noqa: ANN401 - any plain value
+    """Return a plain value that is wrong almost everywhere."""
     return dice.choice(
         (None, True, dice.choice(NUMBERS), dice.choice(NAMES), dice.choice(EXPRESSIONS), [], {})
     )
 
 
-def anything(dice: random.Random, depth: int = 4) -> Any:  # noqa: ANN401 - any plain value
-    """Random data."""
+def random_data(dice: random.Random, depth: int = 4) -> Any:  # noqa: ANN401 - any plain value
+    """Return random data."""
     if depth == 0 or dice.random() < 0.3:
-        return leaf(dice)
+        return wrong_value(dice)
     if dice.random() < 0.5:
-        return [anything(dice, depth - 1) for _ in range(dice.randint(0, 4))]
-    return {_key(dice): anything(dice, depth - 1) for _ in range(dice.randint(0, 4))}
+        return [random_data(dice, depth - 1) for _ in range(dice.randint(0, 4))]
+    return {_key(dice): random_data(dice, depth - 1) for _ in range(dice.randint(0, 4))}
 
 
 def _key(dice: random.Random) -> str:
     return dice.choice((dice.choice(NAMES), dice.choice(sorted(RESERVED)), f"n{dice.randrange(30)}"))
 
 
-def structure(text: str, dice: random.Random) -> str:
-    """The data of a spec with one to four places changed, written as YAML again."""
+def change_data(text: str, dice: random.Random) -> str:
+    """Change the data of a spec in one to four places, and write it as YAML again."""
     try:
         data = yaml.safe_load(text)
         for _ in range(dice.randint(1, 4)):
             places = list(_places(data))
             if not places:
                 return text
-            _change(*dice.choice(places), dice)
-        return dumped(data, dice)
-    except (yaml.YAMLError, ValueError, RecursionError):  # what was put into itself, say, has no end
+            _change_value(*dice.choice(places), dice)
+        return yaml_text(data, dice)
+    except (yaml.YAMLError, ValueError, RecursionError):  # raised, for example, for data that contains itself
         return text
 
 
-def dumped(data: Any, dice: random.Random) -> str:  # noqa: ANN401 - any plain value
-    """Plain data as YAML, in one of its styles."""
+def yaml_text(data: Any, dice: random.Random) -> str:  # noqa: ANN401 - any plain value
+    """Return plain data as YAML, in a random one of its styles."""
     style, width = dice.choice((None, True, False)), dice.choice((20, 80, 100_000))
     return yaml.safe_dump(data, default_flow_style=style, width=width, allow_unicode=True, sort_keys=False)
 
 
-def _places(data: Any) -> Any:  # noqa: ANN401 - any plain value
-    """Every key of a mapping and every item of a list, with what it is in."""
+def _places(data: Any) -> Iterator[tuple[Any, Any]]:  # noqa: ANN401 - any plain value
+    """Yield every key of every mapping and every index of every list, each after its container."""
     keys = list(data) if isinstance(data, dict) else range(len(data)) if isinstance(data, list) else ()
     for key in keys:
         yield data, key
         yield from _places(data[key])
 
 
-def _change(within: Any, key: Any, dice: random.Random) -> None:  # noqa: ANN401 - any plain value
+def _change_value(within: Any, key: Any, dice: random.Random) -> None:  # noqa: ANN401 - any plain value
     value = within[key]
     match dice.randrange(7):
         case 0:
-            within[key] = leaf(dice)
+            within[key] = wrong_value(dice)
         case 1:
-            within[key] = anything(dice)
+            within[key] = random_data(dice)
         case 2:
             del within[key]
         case 3:
             within[key] = dice.choice(
-                ([value], {"value": value}, [value] * dice.choice((2, 300)), nested(value, dice))
+                ([value], {"value": value}, [value] * dice.choice((2, 300)), wrap(value, dice))
             )
         case 4 if isinstance(within, dict):
             within[_key(dice)] = within.pop(key) if dice.random() < 0.5 else deepcopy(value)
         case 5 if isinstance(value, str):
-            within[key] = expression(value, dice)
+            within[key] = change_expression(value, dice)
         case _:
-            other, place = dice.choice(list(_places(within)))
-            within[key] = deepcopy(other[place])
+            other, other_key = dice.choice(list(_places(within)))
+            within[key] = deepcopy(other[other_key])
 
 
-def nested(value: Any, dice: random.Random) -> Any:  # noqa: ANN401 - any plain value
-    """A value in so many lists or mappings."""
+def wrap(value: Any, dice: random.Random) -> Any:  # noqa: ANN401 - any plain value
+    """Wrap a value in many lists or mappings."""
     for _ in range(dice.choice((3, 38, 60))):
         value = [value] if dice.random() < 0.5 else {"a": value}
     return value
 
 
-def expression(text: str, dice: random.Random) -> str:
-    """An expression with a part changed, wrapped or repeated."""
+def change_expression(text: str, dice: random.Random) -> str:
+    """Replace, wrap or repeat a part of an expression."""
     parts = re.split(r"(\W)", text)
     match dice.randrange(5):
         case 0:
@@ -169,11 +170,11 @@ def expression(text: str, dice: random.Random) -> str:
     return "".join(parts)
 
 
-DAMAGES: tuple[Damage, ...] = (characters, lines, words, splices, structure)
+DAMAGES: tuple[Damage, ...] = (change_character, change_line, replace_word, repeat_part, change_data)
 
 
 def damaged(text: str, dice: random.Random) -> str:
-    """The text with one to six things done to it."""
+    """Damage a text one to six times."""
     for _ in range(dice.randint(1, 6)):
         text = dice.choice(DAMAGES)(text, dice)
         if len(text) > 1_000_000:

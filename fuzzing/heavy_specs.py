@@ -1,16 +1,17 @@
-"""Specs that would exhaust a machine that reads them carelessly: large, deep, and with much to multiply."""
+"""Specs that exhaust a careless reader's memory or time: large, deep, or with parts that multiply."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fuzzing.damage import NAMES, anything, dumped
+from fuzzing.damage import NAMES, random_data, yaml_text
 
 if TYPE_CHECKING:
     import random
     from collections.abc import Callable
 
-    Burden = Callable[[int, random.Random], str]
+    Kind = Callable[[int, random.Random], str]
+    """Maps a size and a random generator to a spec."""
 
 MEGABYTE = 1_000_000
 
@@ -19,9 +20,9 @@ def spec(
     constants: str = "", robots: int = 2, state: str = "", definitions: str = "", sensors: str = "",
     behaviors: str = "  go:\n    actions: {run: {speed: 1}}\n", reward: str = "speed", more: str = "",
 ) -> str:  # fmt: skip
-    """A small spec around what is large in it; each part is the lines of its block."""
+    """Return a small spec around its large part; each part is the lines of its block."""
     return (
-        f"bbsd: 1\nname: burden\nconstants:\n  one: 1\n{constants}environment:\n  robots: {robots}\n  steps: 10\n"
+        f"bbsd: 1\nname: heavy\nconstants:\n  one: 1\n{constants}environment:\n  robots: {robots}\n  steps: 10\n"
         f"  state:\n    speed: 0\n{state}  definitions:\n    own: speed\n{definitions}  sensors:\n    fast: speed > 1\n"
         f"{sensors}behaviors:\n{behaviors}reward:\n  good: {reward}\n{more}"
     )
@@ -32,28 +33,28 @@ def _lines(n: int, line: Callable[[int], str], indent: int = 4) -> str:
 
 
 def doubling(n: int, dice: random.Random) -> str:
-    """Definitions that each use the one before twice."""
+    """Return a spec with a chain of definitions that each use the one before twice."""
     sign = dice.choice("+*-/")
     chain = _lines(n, lambda k: f"d{k + 1}: d{k} {sign} d{k}" if k else "d1: speed + speed")
     return spec(definitions=chain, reward=f"d{n}")
 
 
 def parameters(n: int, dice: random.Random) -> str:
-    """Definitions with parameters that each call the one before with two arguments."""
+    """Return a spec with a chain of definitions with parameters that each call the one before twice."""
     calls = dice.choice(("f{0}(a + 1) + f{0}(a + 2)", "f{0}(f{0}(a))", "f{0}(a) * f{0}(-a)"))
     chain = _lines(n, lambda k: f"f{k + 1}(a): {calls.format(k)}" if k else "f1(a): a + speed")
     return spec(definitions=chain, reward=f"f{n}(1)")
 
 
 def sensors(n: int, dice: random.Random) -> str:
-    """Sensors that need each other in a chain, for many robots."""
+    """Return a spec with a chain of sensors that each need the one before, for many robots."""
     of = dice.choice(("s{0} + 1", "max(s{0}[r] for r in team)", "s{0} + normal(0, 1)", "before(s{0})"))
     chain = _lines(n, lambda k: f"s{k + 1}: {of.format(k)}" if k else "s1: speed")
     return spec(robots=dice.choice((1, 8, 64)), sensors=chain)
 
 
 def generators(n: int, dice: random.Random) -> str:
-    """Generators inside generators."""
+    """Return a spec with generators inside generators."""
     size = dice.choice((2, 10, 64, 1000))
     inner = "speed"
     for depth in range(min(n, 12)):
@@ -62,7 +63,7 @@ def generators(n: int, dice: random.Random) -> str:
 
 
 def tables(n: int, dice: random.Random) -> str:
-    """Tables of numbers, drawn or written out, and what reads them."""
+    """Return a spec with a table of numbers, drawn or written out, and a reward that reads it."""
     width = dice.choice((1, 30, 1000))
     rows = max(1, n // width)
     written = f"  table: [{', '.join([str(list(range(width)))] * rows)}]\n"
@@ -73,19 +74,19 @@ def tables(n: int, dice: random.Random) -> str:
 
 
 def unknown(n: int, dice: random.Random) -> str:
-    """Many names, and many that are none."""
-    known = _lines(n, lambda k: f"name_of_a_constant_{k}: {k}", 2)
+    """Return a spec with many names, and many misspelled ones."""
+    constants = _lines(n, lambda k: f"name_of_a_constant_{k}: {k}", 2)
     terms = _lines(min(n, 300), lambda k: f"term_{k}: nome_of_a_constant_{dice.randrange(10**6)}", 2)
-    return spec(constants=known, more=terms)
+    return spec(constants=constants, more=terms)
 
 
 def keys(n: int, dice: random.Random) -> str:
-    """Many keys that are none."""
+    """Return a spec with many unknown keys."""
     return spec(more=_lines(n, lambda k: f"{dice.choice(NAMES[2:6])}{k}: {k}", 0))
 
 
 def rules(n: int, dice: random.Random) -> str:
-    """A large table and many rules that each match much of it."""
+    """Return a spec with a large table and many rules that each match much of it."""
     size = dice.choice((2, 100, 999))
     inputs = f"    inputs: {{a: 'values(speed, 0, {size})', b: 'values(speed, 0, {size})'}}\n"
     written = _lines(
@@ -95,7 +96,7 @@ def rules(n: int, dice: random.Random) -> str:
 
 
 def behaviors(n: int, dice: random.Random) -> str:
-    """Many behaviors with many actions."""
+    """Return a spec with many behaviors with many actions."""
     actions = ", ".join(f"a{k}: {{speed: {k}}}" for k in range(dice.choice((1, 20, 201))))
     return spec(
         robots=dice.choice((1, 64)), behaviors=_lines(n, lambda k: f"b{k}: {{actions: {{{actions}}}}}", 2)
@@ -103,7 +104,7 @@ def behaviors(n: int, dice: random.Random) -> str:
 
 
 def symbols(n: int, dice: random.Random) -> str:
-    """A table as text, nearly or just as long as it should be, alone or repeated by many behaviors."""
+    """Return a spec with a table as text of about the right length, alone or repeated by many behaviors."""
     kinds = dice.choice((".1", "01?", ".1?2z", "Àé.1"))
     cells = "".join(dice.choices(kinds, k=n + dice.choice((-1, 0, 0, 1))))
     row = dice.choice((1, 90, 1000, n))
@@ -116,7 +117,7 @@ def symbols(n: int, dice: random.Random) -> str:
 
 
 def cells(n: int, dice: random.Random) -> str:
-    """Named cells with conditions whose cover is to be proven."""
+    """Return a spec with named cells, whose conditions `check` must prove to cover everything."""
     join = dice.choice((" and ", " or "))
     conditions = join.join(
         f"speed {dice.choice(('<', '>=', '=='))} {k % 7}" for k in range(dice.randint(1, 60))
@@ -126,13 +127,13 @@ def cells(n: int, dice: random.Random) -> str:
 
 
 def cuts(n: int, dice: random.Random) -> str:
-    """A cut with many bounds, all for many robots."""
+    """Return a spec with a cut of many bounds, for many robots."""
     bounds = ", ".join(str(k) for k in range(n))
     return spec(robots=dice.choice((1, 64)), sensors=f"    zone: cut(speed, {bounds})\n")
 
 
 def long_expression(n: int, dice: random.Random) -> str:
-    """One long expression, over one line or many."""
+    """Return a spec with one long expression, on one line or many."""
     part = dice.choice(
         (" + speed", " and speed > 1", " if fast else speed", " < 1", "[0]", " ** 2", ".x", "\n      + 1")
     )
@@ -140,7 +141,7 @@ def long_expression(n: int, dice: random.Random) -> str:
 
 
 def deep(n: int, dice: random.Random) -> str:
-    """Deep nesting, of brackets or of blocks."""
+    """Return a spec with deep nesting, of brackets or of blocks."""
     opening, closing = dice.choice(
         (("[", "]"), ("{a: ", "}"), ("(", ")"), ("- ", ""), ("? ", ""), ("-", ""), ("not ", ""))
     )
@@ -148,21 +149,21 @@ def deep(n: int, dice: random.Random) -> str:
 
 
 def aliases(n: int, dice: random.Random) -> str:
-    """Aliases that multiply, or one that is used often."""
+    """Return a spec with aliases that multiply, or one that is used often."""
     times = dice.choice((1, 2, 10))
     chain = _lines(n, lambda k: f"x-a{k}: &a{k} [{', '.join([f'*a{k - 1}' if k else 'x'] * times)}]", 0)
     return spec(more=chain)
 
 
 def numbers(n: int, dice: random.Random) -> str:
-    """A number of many digits, as YAML's or in an expression."""
+    """Return a spec with numbers of many digits, for YAML and in expressions."""
     number = dice.choice(("9", "1_", "0x", "0.", "1e", "-", "0o7")) + dice.choice("0129") * n
     return spec(constants=f"  a: {number}\n  b: one + {number}\n  c: 2 ** {number}\n")
 
 
 def unicode_names(n: int, dice: random.Random) -> str:
-    """Names of odd characters."""
-    odd = _lines(
+    """Return a spec with names of unusual characters."""
+    names = _lines(
         min(n, 2000),
         lambda k: (
             "".join(
@@ -173,36 +174,36 @@ def unicode_names(n: int, dice: random.Random) -> str:
         ),
         2,
     )
-    return spec(constants=odd)
+    return spec(constants=names)
 
 
-def random_data(n: int, dice: random.Random) -> str:
-    """Random data of any shape."""
-    return dumped(
+def shapeless(n: int, dice: random.Random) -> str:
+    """Return a spec with random data of any shape."""
+    return yaml_text(
         {
             "bbsd": 1,
             "name": "x",
-            "environment": anything(dice),
-            "behaviors": [anything(dice) for _ in range(min(n, 50))],
+            "environment": random_data(dice),
+            "behaviors": [random_data(dice) for _ in range(min(n, 50))],
         },
         dice,
     )
 
 
 def noise(n: int, dice: random.Random) -> str:
-    """Random characters."""
+    """Return random characters."""
     return "".join(
         chr(dice.choice((10, 32, dice.randrange(32, 127), dice.randrange(1, 0x3000)))) for _ in range(n)
     )
 
 
-BURDENS: tuple[Burden, ...] = (
+KINDS: tuple[Kind, ...] = (
     doubling, parameters, sensors, generators, tables, unknown, keys, rules, behaviors, symbols, cells, cuts,
-    long_expression, deep, aliases, numbers, unicode_names, random_data, noise,
+    long_expression, deep, aliases, numbers, unicode_names, shapeless, noise,
 )  # fmt: skip
 SIZES = (1, 10, 40, 100, 1000, 10_000, 100_000)
 
 
-def burden(dice: random.Random) -> str:
-    """One of them, of some size, of 1 MB at most."""
-    return dice.choice(BURDENS)(dice.choice(SIZES), dice)[:MEGABYTE]
+def heavy_spec(dice: random.Random) -> str:
+    """Return a spec of a random kind and size, cut off at 1 MB."""
+    return dice.choice(KINDS)(dice.choice(SIZES), dice)[:MEGABYTE]

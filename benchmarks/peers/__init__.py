@@ -1,1 +1,1 @@
-"""What a user would pick instead, each a module with `prepare`: a workload made into a call that lives it."""
+"""What a user would pick instead of bbsd: `prepare(workload)` of each module returns a call that computes it."""

@@ -1,4 +1,4 @@
-"""A program that a user would write with DEAP: individuals are lists, `evaluate` lives an episode in plain Python."""
+"""A program that a user would write with DEAP: individuals are lists, `evaluate` runs an episode in plain Python."""
 
 from __future__ import annotations
 
@@ -8,15 +8,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 from deap import base, creator
 
-from benchmarks.lifting import BEHAVIORS, Lived
+from benchmarks.workloads.lifting import (
+    BEHAVIORS,
+    DT,
+    GOAL,
+    RADIUS,
+    ROBOTS,
+    SMALL_TILT,
+    SPEED_STEP,
+    STEPS,
+    TOP_SPEED,
+    Earnings,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from benchmarks.lifting import Workload
-
-STEPS, ROBOTS = 300, 3
-SPEED_STEP, TOP_SPEED, GOAL, SMALL_TILT, DT, RADIUS = 1, 5, 3, 5, 0.005, 1
+    from benchmarks.workloads.lifting import Workload
 
 
 class Robot:
@@ -39,7 +47,7 @@ class Team:
         return math.degrees(math.atan(math.sqrt(sideways * sideways + forward * forward)))
 
     def place(self, robot: Robot) -> int:
-        heights = [each.height for each in self.robots]
+        heights = [other.height for other in self.robots]
         if robot.height == min(heights):
             return 0
         return 1 if robot.height == max(heights) else 2
@@ -105,8 +113,8 @@ def evaluate(individual: creator.Agent) -> tuple[float]:
     return (total / ROBOTS,)
 
 
-def prepare(workload: Workload) -> Callable[[], Lived]:
-    """Each agent an individual of DEAP's, evaluated through its toolbox."""
+def prepare(workload: Workload) -> Callable[[], Earnings]:
+    """Prepare each agent as an individual of DEAP, evaluated through its toolbox."""
     if not hasattr(creator, "Agent"):
         creator.create("Return", base.Fitness, weights=(1.0,))
         creator.create("Agent", list, fitness=creator.Return, structure=None, heights=None, credit=None)
@@ -120,10 +128,10 @@ def prepare(workload: Workload) -> Callable[[], Lived]:
         individual.heights, individual.structure = heights.tolist(), structure.tolist()
         population.append(individual)
 
-    def live() -> Lived:
+    def run() -> Earnings:
         for individual, fitness in zip(population, toolbox.map(toolbox.evaluate, population), strict=True):
             individual.fitness.values = fitness
         returns = [individual.fitness.values[0] for individual in population]
-        return Lived(np.array(returns), np.array([individual.credit for individual in population]))
+        return Earnings(np.array(returns), np.array([individual.credit for individual in population]))
 
-    return live
+    return run

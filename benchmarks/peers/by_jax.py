@@ -10,30 +10,45 @@ import numpy as np
 from jax import lax
 from jax import numpy as jnp
 
-from benchmarks.lifting import BEHAVIORS, ROBOTS, STEPS, Lived
+from benchmarks.workloads.lifting import (
+    BEHAVIORS,
+    DT,
+    GOAL,
+    RADIUS,
+    ROBOTS,
+    SMALL_TILT,
+    SPEED_STEP,
+    STEPS,
+    TOP_SPEED,
+    Earnings,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from benchmarks.lifting import Workload
+    from benchmarks.workloads.lifting import Workload
 
-SPEED_STEP, TOP_SPEED, GOAL, SMALL_TILT, DT, RADIUS = 1.0, 5.0, 3.0, 5.0, 0.005, 1.0
 Array = Any
 
 
 def tilt_of(height: Array) -> Array:
-    """height (n_robots,) -> one angle."""
+    """Return the tilt in degrees of heights (n_robots,)."""
     sideways = (height[2] - height[1]) / (np.sqrt(3) * RADIUS)
     forward = (height[0] - (height[1] + height[2]) / 2) / (1.5 * RADIUS)
     return jnp.degrees(jnp.arctan(jnp.sqrt(sideways * sideways + forward * forward)))
 
 
 def decide(words: Array, priorities: Array, height: Array, speed: Array, tilt: Array) -> Array:
-    """Which behavior controls each robot, BEHAVIORS where none; a table is the bits of a word, which beats a gather."""
+    """Return the behavior that controls each robot, BEHAVIORS for none.
+
+    A table is the bits of a word, since shifts are faster than a gather.
+    """
     place = jnp.where(height == height.min(), 0, jnp.where(height == height.max(), 1, 2))
-    seen = place * 2 + (tilt > SMALL_TILT)
+    situation = place * 2 + (tilt > SMALL_TILT)
     pace = jnp.clip(speed, 0, 5).astype(jnp.int64)
-    cells = jnp.stack([jnp.zeros_like(seen), pace, (height >= GOAL).astype(jnp.int64), seen, seen])
+    cells = jnp.stack(
+        [jnp.zeros_like(situation), pace, (height >= GOAL).astype(jnp.int64), situation, situation]
+    )
     active = (words[:, None] >> cells) & 1
     highest = jnp.where(active > 0, priorities[:, None], 0).max(axis=0)
     return jnp.where(highest > 0, highest & 7, BEHAVIORS)
@@ -69,12 +84,12 @@ def episode(agent: tuple[Array, Array, Array]) -> tuple[Array, Array]:
 
 
 def all_episodes(agents: tuple[Array, Array, Array]) -> tuple[Array, Array]:
-    """Mapped over so many agents at a time as fit into the cache; all at once takes more than twice as long."""
+    """Run the episodes in batches that fit into the cache; all at once takes more than twice as long."""
     return lax.map(episode, agents, batch_size=200)
 
 
-def prepare(workload: Workload) -> Callable[[], Lived]:
-    """All agents mapped and compiled, with XLA's arctangent."""
+def prepare(workload: Workload) -> Callable[[], Earnings]:
+    """Prepare lifting, mapped over all agents and compiled, with XLA's arctangent."""
     jax.config.update("jax_platforms", "cpu")
     jax.config.update("jax_enable_x64", True)
     shifts = np.arange(workload.tables.shape[2])
@@ -85,8 +100,8 @@ def prepare(workload: Workload) -> Callable[[], Lived]:
     agents = tuple(jnp.asarray(array) for array in (workload.heights, words, priorities))
     compiled = jax.jit(all_episodes).lower(agents).compile()
 
-    def live() -> Lived:
+    def run() -> Earnings:
         returns, credit = compiled(agents)
-        return Lived(np.asarray(returns), np.asarray(credit))
+        return Earnings(np.asarray(returns), np.asarray(credit))
 
-    return live
+    return run

@@ -8,15 +8,26 @@ from typing import TYPE_CHECKING
 import numba
 import numpy as np
 
-from benchmarks.lifting import BEHAVIORS, Lived
+from benchmarks.workloads.lifting import (
+    BEHAVIORS,
+    DT,
+    GOAL,
+    RADIUS,
+    ROBOTS,
+    SMALL_TILT,
+    SPEED_STEP,
+    STEPS,
+    TOP_SPEED,
+    Earnings,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from benchmarks.lifting import Floats, Workload
+    from benchmarks.workloads.arrays import Floats
+    from benchmarks.workloads.lifting import Workload
 
-STEPS, ROBOTS, NOBODY = 300, 3, 5
-SPEED_STEP, TOP_SPEED, GOAL, SMALL_TILT, DT, RADIUS = 1.0, 5.0, 3.0, 5.0, 0.005, 1.0
+NOBODY = BEHAVIORS
 
 
 @numba.njit
@@ -101,13 +112,13 @@ def lift(
         returns[agent] = episode(heights[agent], tables[agent], structures[agent], credit[agent])
 
 
-def prepare(workload: Workload) -> Callable[[], Lived]:
-    """One agent at a time, with libm's arctangent."""
+def prepare(workload: Workload) -> Callable[[], Earnings]:
+    """Prepare lifting, one agent at a time, with libm's arctangent."""
 
-    def live() -> Lived:
+    def run() -> Earnings:
         returns, credit = np.empty(len(workload)), np.zeros((len(workload), BEHAVIORS + 1))
         lift(workload.heights, workload.tables, workload.structures, returns, credit)
-        return Lived(returns, credit)
+        return Earnings(returns, credit)
 
-    live()
-    return live
+    run()
+    return run

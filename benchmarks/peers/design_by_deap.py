@@ -1,7 +1,7 @@
-"""The design algorithm as one would write it with DEAP for the pools and NumPy, all agents at once, for the rest.
+"""The design algorithm as a user would write it, with DEAP for the pools and NumPy, all agents at once, for the rest.
 
-Cooperative co-evolution, structures found by stochastic search, memes: what `bbsd design` does in its generations,
-without a final race.
+Cooperative co-evolution, stochastic search for structures and memes, as in the generations of `bbsd design`; there is
+no final race.
 """
 
 from __future__ import annotations
@@ -13,56 +13,47 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from deap import base, creator, tools
 
-from benchmarks.lifting import BEHAVIORS, ROBOTS, Workload
 from benchmarks.peers.by_numpy import lift
+from benchmarks.workloads.lifting import BEHAVIORS, ROBOTS, Workload
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import numpy.typing as npt
-
     from bbsd.solver.settings import Settings
-    from benchmarks.lifting import Floats
+    from benchmarks.workloads.arrays import Floats, Integers, Symbols
 
-    Integers = npt.NDArray[np.int64]
-    Live = Callable[[npt.NDArray[np.uint8], Integers, np.random.Generator], tuple[Floats, Floats]]
-    """Of tables (n_agents, n_behaviors, n_cells) and structures: returns (n_agents,) and credit by behavior."""
+    Run = Callable[[Symbols, Integers, np.random.Generator], tuple[Floats, Floats]]
+    """Maps tables (n_agents, n_behaviors, n_cells) and structures to returns (n_agents,) and credit by behavior."""
 
 LIFTING_CELLS = (1, 6, 2, 6, 6)
 ABSTRACT_CELLS = (25,) * 7
 
 
-def live_lifting(
-    tables: npt.NDArray[np.uint8], structures: Integers, rng: np.random.Generator
-) -> tuple[Floats, Floats]:
-    """One episode of each agent."""
-    lived = lift(Workload(rng.uniform(2, 3, (len(tables), ROBOTS)), tables, structures))
-    return lived.returns, lived.credit[:, :BEHAVIORS]
+def run_lifting(tables: Symbols, structures: Integers, rng: np.random.Generator) -> tuple[Floats, Floats]:
+    """Run one episode of each agent."""
+    earnings = lift(Workload(rng.uniform(2, 3, (len(tables), ROBOTS)), tables, structures))
+    return earnings.returns, earnings.credit[:, :BEHAVIORS]
 
 
-def live_abstract(policy: Integers) -> Live:
-    """Episodes of one answer each."""
+def run_abstract(policy: Integers) -> Run:
+    """Return the function that runs episodes of one answer each, of which `policy` (5, 5) holds the right ones."""
 
-    def live(
-        tables: npt.NDArray[np.uint8], structures: Integers, rng: np.random.Generator
-    ) -> tuple[Floats, Floats]:
+    def run(tables: Symbols, structures: Integers, rng: np.random.Generator) -> tuple[Floats, Floats]:
         agents, n_behaviors = np.arange(len(tables)), tables.shape[1]
         i, j = rng.integers(0, 5, (2, len(tables)))
         active = tables[agents, :, i * 5 + j]
         who = np.full(len(tables), -1)
-        for layer in structures.T:  # lowest first: higher ones write over it
+        for layer in structures.T:  # lowest first: higher ones overwrite it
             who = np.where(active[agents, layer] > 0, layer, who)
         returns = np.where(who + 1 == policy[i, j], 1.0, -1.0)
         credit = np.where(np.arange(n_behaviors) == who[:, None], returns[:, None], 0.0)
         return returns, credit
 
-    return live
+    return run
 
 
-def design(
-    live: Live, cells: tuple[int, ...], settings: Settings, generations: int, seed: int
-) -> list[float]:
-    """The mean fitness of the agents in each generation."""
+def design(run: Run, cells: tuple[int, ...], settings: Settings, generations: int, seed: int) -> list[float]:
+    """Return the mean fitness of the agents in each generation."""
     random.seed(seed)
     rng = np.random.default_rng(seed)
     toolbox = toolbox_for(settings)
@@ -71,13 +62,13 @@ def design(
     means = []
     for generation in range(1, generations + 1):
         if generation > 1:
-            pools = [bred(pool, toolbox, settings, generation - 1) for pool in pools]
-        members = np.stack([paired(len(pool), settings.coevolution.agents, rng) for pool in pools], axis=1)
+            pools = [next_pool(pool, toolbox, settings, generation - 1) for pool in pools]
+        members = np.stack([pairing(len(pool), settings.coevolution.agents, rng) for pool in pools], axis=1)
         tables = np.zeros((len(members), len(pools), max(cells)), np.uint8)
         for index, pool in enumerate(pools):
             tables[:, index, : cells[index]] = np.array(pool, np.uint8)[members[:, index]]
-        structures = born(culture, len(members), len(pools), settings, rng)
-        returns, structures, values = lifetimes(live, tables, structures, settings, rng)
+        structures = first_structures(culture, len(members), len(pools), settings, rng)
+        returns, structures, values = lifetimes(run, tables, structures, settings, rng)
         fitness = returns[:, -settings.learning.last :].mean(axis=1)
         share(pools, members, fitness, values, settings)
         for structure, value in zip(structures.tolist(), fitness.tolist(), strict=True):
@@ -87,7 +78,7 @@ def design(
 
 
 def toolbox_for(settings: Settings) -> Any:  # noqa: ANN401 - DEAP is not typed
-    """DEAP's operators with the settings of Table 1."""
+    """Return DEAP's operators with the settings of Table 1."""
     if not hasattr(creator, "Shared"):
         creator.create("Shared", base.Fitness, weights=(1.0,))
         creator.create("Table", list, fitness=creator.Shared)
@@ -101,8 +92,8 @@ def toolbox_for(settings: Settings) -> Any:  # noqa: ANN401 - DEAP is not typed
     return toolbox
 
 
-def bred(pool: list[Any], toolbox: Any, settings: Settings, generation: int) -> list[Any]:  # noqa: ANN401
-    """Selection, crossover, hard and soft mutation; the best stay."""
+def next_pool(pool: list[Any], toolbox: Any, settings: Settings, generation: int) -> list[Any]:  # noqa: ANN401
+    """Return the next generation of a pool: selection, crossover, hard and soft mutation; the best stay."""
     breeding = settings.breeding(generation)
     children = [toolbox.clone(best) for best in tools.selBest(pool, breeding.elites)]
     while len(children) < len(pool):
@@ -116,20 +107,20 @@ def bred(pool: list[Any], toolbox: Any, settings: Settings, generation: int) -> 
     return children
 
 
-def paired(population: int, n_agents: int, rng: np.random.Generator) -> Integers:
-    """Every individual equally often, in random order."""
+def pairing(population: int, n_agents: int, rng: np.random.Generator) -> Integers:
+    """Return an individual for each agent: every one equally often, in random order."""
     decks = [rng.permutation(population) for _ in range(-(-n_agents // population))]
     return np.concatenate(decks)[:n_agents]
 
 
-def born(
+def first_structures(
     culture: list[tuple[list[int], float]],
     n_agents: int,
     n_layers: int,
     settings: Settings,
     rng: np.random.Generator,
 ) -> Integers:
-    """Memes by a scaled roulette wheel, or any of them; random structures where there are none."""
+    """Return each agent's first structure: a meme by a scaled roulette wheel, any meme, or random without memes."""
     if settings.culture is None or not culture:
         return rng.permuted(np.tile(np.arange(n_layers), (n_agents, 1)), axis=1)
     fitness = np.array([value for _, value in culture])
@@ -142,29 +133,31 @@ def born(
 
 
 def lifetimes(
-    live: Live,
-    tables: npt.NDArray[np.uint8],
+    run: Run,
+    tables: Symbols,
     structures: Integers,
     settings: Settings,
     rng: np.random.Generator,
 ) -> tuple[Floats, Integers, Floats]:
-    """Returns (n_agents, n_episodes), final structures, the learned values (n_agents, n_layers, n_behaviors)."""
+    """Return the returns (n_agents, n_episodes), final structures, learned values (n_agents, n_layers, n_behaviors)."""
     n_agents, n_layers = structures.shape
     agents, layers = np.arange(n_agents)[:, None], np.arange(n_layers)
     values = np.zeros((n_agents, n_layers, tables.shape[1]))
     returns = np.empty((n_agents, settings.learning.episodes))
     for episode in range(1, settings.learning.episodes + 1):
         if episode > 1:
-            structures = searched(values, structures, settings.learning.candidates, rng)
-        returns[:, episode - 1], credit = live(tables, structures, rng)
+            structures = searched_structures(values, structures, settings.learning.candidates, rng)
+        returns[:, episode - 1], credit = run(tables, structures, rng)
         rate = settings.rates.learning[episode - 1]
         old = values[agents, layers, structures]
         values[agents, layers, structures] = (1 - rate) * old + rate * credit[agents, structures]
     return returns, structures, values
 
 
-def searched(values: Floats, structures: Integers, n_random: int, rng: np.random.Generator) -> Integers:
-    """The best of the present structure and random ones by what was learned."""
+def searched_structures(
+    values: Floats, structures: Integers, n_random: int, rng: np.random.Generator
+) -> Integers:
+    """Return the best of the present structure and random ones by the learned values."""
     n_agents, n_layers = structures.shape
     random_ones = rng.random((n_agents, n_random, n_layers)).argsort(axis=2)
     candidates = np.concatenate([structures[:, None, :], random_ones], axis=1)
@@ -177,7 +170,7 @@ def searched(values: Floats, structures: Integers, n_random: int, rng: np.random
 def share(
     pools: list[list[Any]], members: Integers, fitness: Floats, values: Floats, settings: Settings
 ) -> None:
-    """Give each individual the mean of what its agents earned, or of what it contributed to them."""
+    """Set each individual's fitness to the mean of its agents' fitness, or of its own contributions to them."""
     shares = (
         values.sum(axis=1) if settings.sharing == "value" else np.repeat(fitness[:, None], len(pools), axis=1)
     )
@@ -191,18 +184,18 @@ def share(
 def learn(
     culture: list[tuple[list[int], float]], structure: list[int], value: float, settings: Settings
 ) -> None:
-    """Take a structure into the culture."""
+    """Add a structure to the culture, or update its fitness there."""
     if settings.culture is None:
         return
-    known = [meme for meme, _ in culture]
-    if structure in known:
-        place = known.index(structure)
-        culture[place] = (
+    memes = [meme for meme, _ in culture]
+    if structure in memes:
+        index = memes.index(structure)
+        culture[index] = (
             structure,
-            (1 - settings.culture.rate) * culture[place][1] + settings.culture.rate * value,
+            (1 - settings.culture.rate) * culture[index][1] + settings.culture.rate * value,
         )
     elif len(culture) < settings.culture.size:
         culture.append((structure, value))
     elif value > min(fitness for _, fitness in culture):
-        least = min(range(len(culture)), key=lambda place: culture[place][1])
+        least = min(range(len(culture)), key=lambda index: culture[index][1])
         culture[least] = structure, value

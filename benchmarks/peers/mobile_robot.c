@@ -1,16 +1,16 @@
 /* specs/mobile_robot.yaml as one would port it to C: one episode at a time, branches, the C library's functions.
    Draws are those of bbsd/kernel/streams.py, so that the episodes are the same.
-   OWN: with bbsd's functions instead of the C library's. */
+   BBSD_FUNCTIONS: with bbsd's functions instead of the C library's. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#ifdef OWN
-#include "own.h"
-#define SIN own_sin
-#define COS own_cos
-#define ATAN2 own_atan2
-#define LOG own_log
+#ifdef BBSD_FUNCTIONS
+#include "bbsd_functions.h"
+#define SIN bbsd_sin
+#define COS bbsd_cos
+#define ATAN2 bbsd_atan2
+#define LOG bbsd_log
 #define HYPOT(x, y) sqrt((x) * (x) + (y) * (y))
 #else
 #define SIN sin
@@ -28,7 +28,7 @@ static const double OBSTACLE[OBSTACLES][3] = {{3, 2, 0.5}, {5, 5.5, 0.7}, {7.5, 
 static const double SONAR[SONARS] = {90, 50, 30, 10, -10, -30, -50, -90}, EYE[EYES] = {135, 45, -45, -135};
 static const double PI = 3.141592653589793, RADIAN = 0.017453292519943295;
 
-/* The names of the draws, as bbsd derives them from where they stand in the spec. */
+/* The names of the draws, as bbsd derives them from their places in the spec. */
 typedef struct {
     uint64_t x, y, heading, first_whim, whim, sonar[SONARS], light[EYES];
 } Words;
@@ -68,7 +68,7 @@ static double clearance(double x, double y) {
     return least - BODY;
 }
 
-/* Where a ray from the robot meets an obstacle; `cosine` and `sine` are those of its direction. */
+/* The distance to the first obstacle that a ray from the robot meets; `cosine` and `sine` give its direction. */
 static double to_obstacle(const Robot *robot, double cosine, double sine) {
     double least = WIDTH + DEPTH;
     for (int i = 0; i < OBSTACLES; i++) {
@@ -119,7 +119,7 @@ static int brightest(const double *light) {
     return 4;
 }
 
-/* The behavior that controls and, through `action`, what it does, from 1. */
+/* Returns the controlling behavior and stores its action, counted from 1, in `action`. */
 static int controlling(const Robot *robot, const uint8_t *tables, const int64_t *structure, int *action) {
     int left = least_of(robot->sonar, 2) < 0.6, front = least_of(robot->sonar + 2, 4) < 0.8;
     int right = least_of(robot->sonar + 6, 2) < 0.6;

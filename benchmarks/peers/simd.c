@@ -2,7 +2,7 @@
    Each phase of a step is done for several vectors before the next: short loops, so that the processor works on
    one vector while it waits for another. */
 #include <math.h>
-#include "lanes.h"
+#include "vectors.h"
 
 enum { STEPS = 300, ROBOTS = 3, BEHAVIORS = 5, CELLS = 6, VECTORS = 5, BATCH = VECTORS * WIDTH };
 enum { PUSH_MORE, DO_NOT_GO_FAST, STOP_AT_GOAL, HURRY_UP, SLOW_DOWN, NOBODY };
@@ -19,7 +19,7 @@ typedef struct {
     Words table[BEHAVIORS], priority[BEHAVIORS], action[ROBOTS];
 } Lanes;
 
-/* The same in memory, a row a vector. */
+/* The same in memory, one number for each lane of a vector. */
 typedef struct {
     double height[ROBOTS][WIDTH], total[WIDTH], credit[BEHAVIORS + 1][WIDTH];
     int64_t table[BEHAVIORS][WIDTH], priority[BEHAVIORS][WIDTH];
@@ -121,7 +121,7 @@ static void set(Rows *rows, int lane, const double *height, const uint8_t *table
     }
 }
 
-static void pick_up(Lanes *lanes, const Rows *rows) {
+static void load(Lanes *lanes, const Rows *rows) {
     *lanes = (Lanes){0};
     for (int robot = 0; robot < ROBOTS; robot++) lanes->height[robot] = LOAD(rows->height[robot]);
     for (int behavior = 0; behavior < BEHAVIORS; behavior++) {
@@ -132,16 +132,16 @@ static void pick_up(Lanes *lanes, const Rows *rows) {
     sense(lanes);
 }
 
-static void lay_down(const Lanes *lanes, Rows *rows) {
+static void store(const Lanes *lanes, Rows *rows) {
     STORE(rows->total, lanes->total);
     for (int behavior = 0; behavior <= BEHAVIORS; behavior++) STORE(rows->credit[behavior], lanes->credit[behavior]);
 }
 
 #define EACH(phase) for (int vector = 0; vector < VECTORS; vector++) phase
 
-static void live(Rows *rows) {
+static void run(Rows *rows) {
     Lanes lanes[VECTORS];
-    EACH(pick_up(&lanes[vector], &rows[vector]));
+    EACH(load(&lanes[vector], &rows[vector]));
     for (int step = 1; step <= STEPS; step++) {
         Numbers root = ALL(sqrt(step));
         EACH(decide(&lanes[vector]));
@@ -149,7 +149,7 @@ static void live(Rows *rows) {
         EACH(sense(&lanes[vector]));
         EACH(reward(&lanes[vector], root));
     }
-    EACH(lay_down(&lanes[vector], &rows[vector]));
+    EACH(store(&lanes[vector], &rows[vector]));
 }
 
 void lift(int64_t agents, const double *heights, const uint8_t *tables, const int64_t *structures, double *returns,
@@ -160,7 +160,7 @@ void lift(int64_t agents, const double *heights, const uint8_t *tables, const in
         for (int64_t lane = 0; lane < count; lane++)
             set(&rows[lane / WIDTH], (int)(lane % WIDTH), heights + (base + lane) * ROBOTS,
                 tables + (base + lane) * BEHAVIORS * CELLS, structures + (base + lane) * BEHAVIORS);
-        live(rows);
+        run(rows);
         for (int64_t lane = 0; lane < count; lane++) {
             const Rows *own = &rows[lane / WIDTH];
             returns[base + lane] = own->total[lane % WIDTH] / ROBOTS;

@@ -1,21 +1,29 @@
-"""Specs made to measure: any number of robots, behaviors, cells and steps, and what else may stop vectorization."""
+"""Specs generated for measuring: any number of robots, behaviors, cells and steps, and what may stop vectorization."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from bbsd.compiler import compile_meaning
 from bbsd.language.loading import load
+from bbsd.solver.random_agents import random_agents
 from bbsd.text import Source
+from benchmarks.workloads.specs import KEY
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem
+    from bbsd.evaluation import Agents
+
+POPULATION = 20
+"""Individuals of each pool, however many agents there are."""
 
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """How large a generated spec is, and expressions that it has beside."""
+    """The sizes of a generated spec, and the expressions in it."""
 
     robots: int = 3
     behaviors: int = 5
@@ -28,8 +36,8 @@ class Shape:
     seen: str = "8 * x"
 
 
-def text_of(shape: Shape) -> str:
-    """The spec: robots move along a line toward a goal that its team's mean should reach."""
+def spec_text(shape: Shape) -> str:
+    """Return a spec of that shape: robots move along a line toward a goal that their team's mean should reach."""
     lines = [
         "bbsd: 1",
         "name: generated",
@@ -62,5 +70,10 @@ def text_of(shape: Shape) -> str:
 
 
 def compiled(text: str, lanes: int | None = None) -> Problem:
-    """The spec's problem."""
+    """Return the compiled problem of a spec, with that many lanes if given."""
     return compile_meaning(load(Source("generated.yaml", text)).meaning, lanes=lanes)
+
+
+def repeated_agents(problem: Problem, n_agents: int) -> Agents:
+    """Return agents that repeat those of a small random population."""
+    return random_agents(problem, KEY, POPULATION)[np.arange(n_agents) % POPULATION]

@@ -2,7 +2,7 @@
 #include <stdint.h>
 #include <string.h>
 
-static const double SHIFT = 6755399441055744.0; /* 1.5 * 2**52: rounds what is added to a whole number */
+static const double SHIFT = 6755399441055744.0; /* 1.5 * 2**52: rounds a number that it is added to */
 
 static inline int64_t bits_of(double x) {
     int64_t bits;
@@ -35,10 +35,10 @@ static inline double wave(double x, int64_t turn) {
     return (quarter & 2) == 0 ? size : -size;
 }
 
-static inline double own_sin(double x) { return wave(x, 0); }
-static inline double own_cos(double x) { return wave(x, 1); }
+static inline double bbsd_sin(double x) { return wave(x, 0); }
+static inline double bbsd_cos(double x) { return wave(x, 1); }
 
-static inline double own_atan2(double y, double x) {
+static inline double bbsd_atan2(double y, double x) {
     double opposite = fabs(y), adjacent = fabs(x), above, below, base, rest;
     int leftward = x < 0;
     if (opposite <= 0.41421356237309503 * adjacent) {
@@ -60,8 +60,8 @@ static inline double own_atan2(double y, double x) {
     return copysign(base + (t + (t * (z * p) + rest)), y);
 }
 
-/* For 0 < x <= 1, not subnormal: what a draw can be. */
-static inline double own_log(double x) {
+/* For 0 < x <= 1, not subnormal, as a draw is. */
+static inline double bbsd_log(double x) {
     int64_t bits = bits_of(x) + 0x00095F619980C433;
     double exponent = float_of((bits >> 52) + 0x4338000000000000) - (SHIFT + 1023.0);
     double f = float_of((bits & 0x000FFFFFFFFFFFFF) + 0x3FE6A09E667F3BCD) - 1.0;

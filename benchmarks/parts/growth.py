@@ -1,4 +1,4 @@
-"""How the time of a generation's lives grows with everything that makes it larger."""
+"""How the time of a generation's lifetimes grows with everything that makes it larger."""
 
 from __future__ import annotations
 
@@ -11,24 +11,21 @@ import numpy as np
 
 from bbsd.kernel.keys import keys
 from bbsd.solver.lifetime import run_lifetimes
-from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
-from benchmarks.generated import Shape, compiled, text_of
-from benchmarks.lifting import KEY
-from benchmarks.page import Asked, table
-from benchmarks.timing import CORES, Floats, alternated, on_all_cores
+from benchmarks.report import Goal, Section, table
+from benchmarks.timing import CORES, Floats, all_cores, alternating_times
+from benchmarks.workloads.generated import POPULATION, Shape, compiled, repeated_agents, spec_text
+from benchmarks.workloads.specs import KEY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-FIGURE = Path(__file__).parents[1] / "docs" / "images" / "growth.png"
-BOUND = 1.05
-JOBS_AGENTS = 3200
+FIGURE = Path(__file__).parents[2] / "docs" / "images" / "growth.png"
 
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """A generation: its spec, agents and episodes of a lifetime."""
+    """The size of a generation: its spec, agents, episodes of a lifetime, and jobs."""
 
     shape: Shape = field(default_factory=lambda: Shape(steps=400))
     agents: int = 400
@@ -36,8 +33,8 @@ class Size:
     jobs: int = 1
 
 
-POPULATION = 20
-"""Individuals of a pool, however many agents are made of them."""
+USUAL = Size()
+AGENTS_FOR_JOBS = 3200
 
 AXES: dict[str, tuple[int, ...]] = {
     "agents": (400, 800, 1600, 3200),
@@ -49,10 +46,12 @@ AXES: dict[str, tuple[int, ...]] = {
     "jobs": (1, 2),
 }
 BOUNDED = ("agents", "steps", "robots", "episodes")
+LARGEST_EXPONENT = 1.05
+"""Of the bounded axes: time grows in proportion to them, but for noise."""
 
 
-def section(*, quick: bool) -> tuple[str, list[Asked]]:
-    """The text of the section, and the exponents' bounds; draws the figure unless quick."""
+def section(*, quick: bool) -> Section:
+    """Measure the exponent of each axis; draw the figure unless quick."""
     axes = {name: sizes[:2] if quick else sizes for name, sizes in AXES.items()}
     if len(CORES) < 2:
         del axes["jobs"]
@@ -65,67 +64,62 @@ def section(*, quick: bool) -> tuple[str, list[Asked]]:
             name,
             ", ".join(f"{size:,}" for size in axes[name]),
             f"{curves[name][-1] / curves[name][0]:.2f}",
-            f"{found:.2f}",
+            f"{slope:.2f}",
         ]
-        for name, found in exponents.items()
+        for name, slope in exponents.items()
     ]
-    asked = [Asked(f"growth: exponent of {name}", exponents[name], BOUND) for name in BOUNDED]
-    return "\n".join(
-        [
-            "## Growth",
-            "",
-            (
-                "Time of the lives of one generation, structure search and learning included, of generated specs: "
-                f"{Size().agents} agents of pools of {POPULATION}, {Size().episodes} episodes, {Size().shape.steps} "
-                "steps, 3 robots, 5 behaviors, 8 cells each, but for what grows. The exponent is fitted to the "
-                "logarithms: 1 is in proportion, 0 is no growth at all, and -1 would be that of jobs if nothing but "
-                f"episodes took time. With jobs, {JOBS_AGENTS:,} agents are lived by the clock on "
-                f"{len(CORES)} cores; all else is the processor's time on one."
-            ),
-            "",
-            *table(["what grows", "sizes", "time, last / first", "exponent"], rows),
-            "",
-            "![Time against size, both relative to the smallest; cells go on beyond the edge](images/growth.png)",
-        ]
-    ), asked
+    goals = [Goal(f"growth: exponent of {name}", exponents[name], LARGEST_EXPONENT) for name in BOUNDED]
+    text = (
+        "Time of the lifetimes of one generation, structure search and learning included, of generated specs: "
+        f"{USUAL.agents} agents of pools of {POPULATION}, {USUAL.episodes} episodes, {USUAL.shape.steps} steps, "
+        "3 robots, 5 behaviors, 8 cells each, except for what grows. The exponent is fitted to the logarithms: 1 is "
+        "growth in proportion, 0 is no growth at all, and -1 would be that of jobs if nothing but episodes took time. "
+        f"Jobs are measured with {AGENTS_FOR_JOBS:,} agents by the wall clock on {len(CORES)} cores; all else by the "
+        "processor's time on one."
+    )
+    picture = "![Time against size, both relative to the smallest; cells continue beyond the edge](images/growth.png)"
+    return Section(
+        "Growth",
+        [text, table(["what grows", "sizes", "time, last / first", "exponent"], rows), picture],
+        goals,
+    )
 
 
 def curve(name: str, sizes: tuple[int, ...], rounds: int) -> Floats:
-    """Seconds at each size, (n_sizes,)."""
-    calls = {str(size): lives(sized(name, size)) for size in sizes}
+    """Return the seconds at each size, (n_sizes,)."""
+    calls = {str(size): lifetimes(usual_but(name, size)) for size in sizes}
     if name == "jobs":
-        with on_all_cores():
-            times = alternated(calls, rounds, time.perf_counter)
+        with all_cores():
+            times = alternating_times(calls, rounds, time.perf_counter)
     else:
-        times = alternated(calls, rounds)
+        times = alternating_times(calls, rounds)
     return np.array([np.median(times[str(size)]) for size in sizes])
 
 
-def sized(name: str, size: int) -> Size:
-    """The usual size but for one thing."""
-    usual = Size()
+def usual_but(name: str, size: int) -> Size:
+    """Return the usual size with one axis changed."""
     changed: dict[str, Any] = {name: size}
     if name == "jobs":
-        return replace(usual, jobs=size, agents=JOBS_AGENTS)
+        return replace(USUAL, jobs=size, agents=AGENTS_FOR_JOBS)
     if name in ("agents", "episodes"):
-        return replace(usual, **changed)
+        return replace(USUAL, **changed)
     if name == "cells":
         changed["seen"] = f"{size} * x"
-    return replace(usual, shape=replace(usual.shape, **changed))
+    return replace(USUAL, shape=replace(USUAL.shape, **changed))
 
 
-def lives(size: Size) -> Callable[[], object]:
-    """The lives of one generation."""
+def lifetimes(size: Size) -> Callable[[], object]:
+    """Return a call that runs the lifetimes of one generation."""
     design = f"design: {{learning: {{episodes: {size.episodes}, last: 1}}}}\n"
-    problem = replace(compiled(text_of(size.shape) + design), jobs=size.jobs)
+    problem = replace(compiled(spec_text(size.shape) + design), jobs=size.jobs)
     settings = settings_of(problem.meaning)
-    agents = random_agents(problem, KEY, POPULATION)[np.arange(size.agents) % POPULATION]
+    agents = repeated_agents(problem, size.agents)
     streams = keys(KEY, 0, size.agents)
     return lambda: run_lifetimes(problem, agents, streams, 1, settings)
 
 
 def exponent(sizes: tuple[int, ...], times: Floats) -> float:
-    """The slope of a line through the logarithms."""
+    """Return the slope of a line fitted to the logarithms."""
     return float(np.polyfit(np.log(sizes), np.log(times), 1)[0])
 
 
