@@ -35,14 +35,16 @@ if TYPE_CHECKING:
     from bbsd.language.models import Behavior, PartitionText
 
 MAX_ACTIONS = 200
+"""Actions of a behavior: a table's cell is a byte, and a table as text has a character for each action."""
 
 
 @dataclass(frozen=True, slots=True)
 class Module:
     """One behavior (1), for all robots.
 
-    `inputs` are the cells of each input in the order of the table's dimensions, `cells[robot]` their indices,
-    `excited[robot]` where it is excited, `actions[action][state][robot]` what an action sets.
+    `inputs` names the cells of each input in the order of the table's dimensions, `cells[robot]` holds the index
+    of the present cell of each, `excited[robot]` whether it is excited, `actions[action][state][robot]` the value
+    that an action sets.
     """
 
     name: str
@@ -59,11 +61,11 @@ class Module:
 
     @property
     def nodes(self) -> list[Node]:
-        """All that the decision depends on."""
+        """The nodes that the decision depends on."""
         return [*(node for robot in self.cells for node in robot), *self.excited]
 
     def with_nodes(self, new: Callable[[Node], Node]) -> Module:
-        """The same with another node for each of those."""
+        """Return the same behavior with each of those nodes replaced."""
         return replace(
             self,
             cells=tuple(tuple(map(new, robot)) for robot in self.cells),
@@ -72,135 +74,147 @@ class Module:
 
 
 def elaborate_behavior(
-    name: str, written: Behavior, decision: Moment, kinds: Mapping[str, Kind]
+    name: str, behavior: Behavior, decision: Moment, kinds: Mapping[str, Kind]
 ) -> Module | None:
-    """The meaning of a behavior at the decision; None where its inputs could not be understood."""
-    names, path, own = decision.names, ("behaviors", name), decision.behavior_scope(name)
-    excited = tuple(_excited(written, own, (*path, "excited"), robot) for robot in names.robots)
+    """Return what a behavior means at the decision; None where its inputs could not be understood."""
+    names, path, scope = decision.names, ("behaviors", name), decision.behavior_scope(name)
+    excited = tuple(_excited(behavior, scope, (*path, "excited"), robot) for robot in names.robots)
     actions = {
-        action: _action(sets, names, own, (*path, "actions", action), kinds)
-        for action, sets in written.actions.items()
+        action: _action(sets, names, scope, (*path, "actions", action), kinds)
+        for action, sets in behavior.actions.items()
     }
     if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
         names.findings.tell((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
-    per_robot = [_inputs(written, decision, own, (*path, "inputs"), robot) for robot in names.robots]
-    inputs: Inputs = {key: found.cells for key, found in per_robot[0].items()}
+    per_robot = [_inputs(behavior, decision, scope, (*path, "inputs"), robot) for robot in names.robots]
+    inputs: Inputs = {key: partition.cells for key, partition in per_robot[0].items()}
     if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
         message, advice = f"this table would have more than {MAX_CELLS} cells", "cut the inputs more coarsely"
         names.findings.tell((*path, "inputs"), "BB039", message, KEY, advice)
         return None
-    silent = {*names.unusable, *(set(written.inputs) - inputs.keys())}
-    if isinstance(written.inputs, list) and names.findings.told_below((*path, "inputs")):
-        silent |= _asked(written) - inputs.keys()
-    given = _given(written, inputs, path, names, silent)
-    if any(len(found) < len(written.inputs) for found in per_robot):
+    unusable = {*names.unusable, *(set(behavior.inputs) - inputs.keys())}
+    if isinstance(behavior.inputs, list) and names.findings.told_below((*path, "inputs")):
+        unusable |= (
+            _inputs_in_rules(behavior) - inputs.keys()
+        )  # one of them may be the name that was misspelled
+    table = _given_table(behavior, inputs, path, names, unusable)
+    if any(len(partitions) < len(behavior.inputs) for partitions in per_robot):
         return None
-    cells = tuple(tuple(found.index for found in robot.values()) for robot in per_robot)
-    return Module(name, inputs, cells, excited, actions, given)
+    cells = tuple(tuple(partition.index for partition in robot.values()) for robot in per_robot)
+    return Module(name, inputs, cells, excited, actions, table)
 
 
-def _asked(written: Behavior) -> set[str]:
-    """What rules ask for; where a name in the list of inputs is wrong, it may be what was meant there."""
-    return {name for rule in written.rules or () if isinstance(rule, When) for name in rule.when}
+def _inputs_in_rules(behavior: Behavior) -> set[str]:
+    return {name for rule in behavior.rules or () if isinstance(rule, When) for name in rule.when}
 
 
-def _given(written: Behavior, inputs: Inputs, path: Path, names: Names, silent: Collection[str]) -> Table:
-    """The cells that rules or a table give."""
-    actions, findings = list(written.actions), names.findings
-    if written.table is None:
-        return table_of_rules(written.rules, inputs, actions, (*path, "rules"), findings, silent)
-    if written.rules is not None:
+def _given_table(
+    behavior: Behavior, inputs: Inputs, path: Path, names: Names, unusable: Collection[str]
+) -> Table:
+    """Return the cells that rules or a table give; report no mistake in the use of names that are `unusable`."""
+    actions, findings = list(behavior.actions), names.findings
+    if behavior.table is None:
+        return table_of_rules(behavior.rules, inputs, actions, (*path, "rules"), findings, unusable)
+    if behavior.rules is not None:
         advice = "keep one of them; what a spec extends is taken away by rules: null or table: null"
         findings.tell((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)
     is_known = (
-        len(inputs) == len(written.inputs)
+        len(inputs) == len(behavior.inputs)
         and not findings.told_below((*path, "inputs"))
-        and names.unusable.keys().isdisjoint({*written.inputs, *actions})
+        and names.unusable.keys().isdisjoint({*behavior.inputs, *actions})
     )
-    return table_of_text(written.table, inputs, actions, (*path, "table"), findings, is_known=is_known)
+    return table_of_text(behavior.table, inputs, actions, (*path, "table"), findings, is_known=is_known)
 
 
-def _excited(written: Behavior, own: Scope, path: Path, robot: int) -> Node:
-    if written.excited is None:
-        return own.graph.truth(value=True)
-    return elaboration.truth(written.excited.tree, own.at(path, robot))
+def _excited(behavior: Behavior, scope: Scope, path: Path, robot: int) -> Node:
+    if behavior.excited is None:
+        return scope.graph.truth(value=True)
+    return elaboration.truth(behavior.excited.tree, scope.at(path, robot))
 
 
 def _action(
-    sets: Mapping[str, Expression], names: Names, own: Scope, path: Path, kinds: Mapping[str, Kind]
+    sets: Mapping[str, Expression], names: Names, scope: Scope, path: Path, kinds: Mapping[str, Kind]
 ) -> dict[str, tuple[Node, ...]]:
-    """What an action sets, for each robot; only the robot's own state can be set."""
-    meant = {}
-    for target, written in sets.items():
-        here = (*path, target)
+    """Return the values that an action sets, for each robot; only the robot's own state can be set."""
+    nodes = {}
+    for target, expression in sets.items():
+        target_path = (*path, target)
         if target not in names.spec.environment.state:
             if target not in names.unusable:
                 message, advice = _not_state(target, names), "actions set a robot's own state"
-                names.findings.tell(here, "BB033", message, KEY, advice)
+                names.findings.tell(target_path, "BB033", message, KEY, advice)
             continue
-        read = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
-        values = tuple(read(written.tree, own.at(here, robot, draws=True)) for robot in names.robots)
+        evaluate = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
+        values = tuple(
+            evaluate(expression.tree, scope.at(target_path, robot, draws=True)) for robot in names.robots
+        )
         if target not in names.unusable:
-            meant[target] = values
-    return meant
+            nodes[target] = values
+    return nodes
 
 
 def _not_state(target: str, names: Names) -> str:
     environment = names.spec.environment
-    known: dict[str, Collection[str]] = {
+    others: dict[str, Collection[str]] = {
         "a value of the world": environment.world,
         "a sensor": environment.sensors,
         "a constant": names.spec.constants,
         "a definition": names.definitions,
     }
-    for what, those in known.items():
-        if target in those:
-            return f"{target} is {what}, and an action cannot set it"
+    for kind, its_names in others.items():
+        if target in its_names:
+            return f"{target} is {kind}, and an action cannot set it"
     return f'"{target}" is not state{did_you_mean(target, environment.state)}'
 
 
 def _not_listed(name: str, names: Names) -> tuple[str, Span, str]:
-    """What is said of a name that inputs cannot list."""
+    """Return message, span and advice for a name that inputs cannot list."""
     environment = names.spec.environment
     if name in names.definitions or name in names.spec.constants:
-        what = "a definition" if name in names.definitions else "a constant"
+        kind = "a definition" if name in names.definitions else "a constant"
         advice = "make a sensor of it, or write inputs as a mapping: a name, then the partition"
-        return f"{name} is {what}; inputs lists sensors, and truths of the robot's state", WHOLE, advice
+        return f"{name} is {kind}; inputs lists sensors, and truths of the robot's state", WHOLE, advice
     known = [*environment.sensors, *environment.state]
     advice = "inputs lists sensors, and truths of the state; other partitions are a mapping: name, then what it cuts"
     return f'"{name}" is neither sensor nor state{did_you_mean(name, known)}', WHOLE, advice
 
 
-def _inputs(written: Behavior, decision: Moment, own: Scope, path: Path, robot: int) -> dict[str, Partition]:
-    """A robot's partitions by input, without those that could not be understood."""
-    if isinstance(written.inputs, dict):
-        found = {name: _own(cut, decision, own, (*path, name), robot) for name, cut in written.inputs.items()}
-    else:
-        found = {
-            name: _shared(name, decision, own, (*path, place), robot)
-            for place, name in enumerate(written.inputs)
+def _inputs(
+    behavior: Behavior, decision: Moment, scope: Scope, path: Path, robot: int
+) -> dict[str, Partition]:
+    """Return a robot's partitions by input, without those that could not be understood."""
+    if isinstance(behavior.inputs, dict):
+        partitions = {
+            name: _own_partition(text, decision, scope, (*path, name), robot)
+            for name, text in behavior.inputs.items()
         }
-        for place, name in enumerate(written.inputs):
-            if name in written.inputs[:place] and name not in decision.names.unusable:
-                decision.names.findings.tell((*path, place), "BB040", f"{name} is listed twice")
-    return {name: part for name, part in found.items() if part is not None}
+    else:
+        partitions = {
+            name: _shared_partition(name, decision, scope, (*path, index), robot)
+            for index, name in enumerate(behavior.inputs)
+        }
+        for index, name in enumerate(behavior.inputs):
+            if name in behavior.inputs[:index] and name not in decision.names.unusable:
+                decision.names.findings.tell((*path, index), "BB040", f"{name} is listed twice")
+    return {name: partition for name, partition in partitions.items() if partition is not None}
 
 
-def _own(cut: PartitionText, decision: Moment, own: Scope, path: Path, robot: int) -> Partition | None:
-    """An input's own partition; the bare name of a sensor that is one stands for that."""
+def _own_partition(
+    text: PartitionText, decision: Moment, scope: Scope, path: Path, robot: int
+) -> Partition | None:
+    """Return the partition that an input is written with; a sensor's bare name stands for the sensor's partition."""
     sensors = decision.names.spec.environment.sensors
-    if isinstance(cut, Expression) and isinstance(cut.tree, Name) and cut.tree.name in sensors:
-        return _shared(cut.tree.name, decision, own, path, robot)
-    return elaborate_partition(cut, own.at(path, robot), path, robot)
+    if isinstance(text, Expression) and isinstance(text.tree, Name) and text.tree.name in sensors:
+        return _shared_partition(text.tree.name, decision, scope, path, robot)
+    return elaborate_partition(text, scope.at(path, robot), path, robot)
 
 
-def _kind_by_form(written: PartitionText | None) -> Kind:
-    """What a sensor is by its form alone, even where what it is made of could not be understood."""
-    return kind_by_form(written.tree) if isinstance(written, Expression) else Kind.UNKNOWN
+def _kind_by_form(sensor: PartitionText | None) -> Kind:
+    """Return a sensor's kind by its form alone, even where the values in it could not be understood."""
+    return kind_by_form(sensor.tree) if isinstance(sensor, Expression) else Kind.UNKNOWN
 
 
-def _shared(name: str, decision: Moment, own: Scope, path: Path, robot: int) -> Partition | None:
-    """The partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells."""
+def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, robot: int) -> Partition | None:
+    """Return the partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells."""
     names, environment = decision.names, decision.names.spec.environment
     if name in names.unusable:
         return None
@@ -209,11 +223,11 @@ def _shared(name: str, decision: Moment, own: Scope, path: Path, robot: int) -> 
     if not (name in environment.sensors or name in environment.state or name in environment.world):
         names.findings.tell(path, "BB041", *_not_listed(name, names))
         return None
-    found = elaboration.value(Name(name, WHOLE), own.at(path, robot))
-    if isinstance(found, tuple) or Kind.NUMBER in (found.kind, _kind_by_form(environment.sensors.get(name))):
-        what = "a list" if isinstance(found, tuple) else "a number"
+    value = elaboration.value(Name(name, WHOLE), scope.at(path, robot))
+    if isinstance(value, tuple) or Kind.NUMBER in (value.kind, _kind_by_form(environment.sensors.get(name))):
+        what = "a list" if isinstance(value, tuple) else "a number"
         advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
         message = f"an input needs a partition, and {name} is {what}"
         names.findings.tell(path, "BB030", message, WHOLE, advice)
         return None
-    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("cell_of", found))
+    return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("cell_of", value))

@@ -25,7 +25,7 @@ GENERATION = "generation"
 
 @dataclass(frozen=True, slots=True)
 class Constants:
-    """Constants of one command: where each scalar stands in the vector that the kernel gets, and its value.
+    """The constants of a command: the value of each scalar, and its position in the vector that a kernel gets.
 
     `values` are nested tuples of nodes: literals, or expressions of the generation.
     """
@@ -38,18 +38,18 @@ class Constants:
     """For each scalar, whether it is certainly a whole number."""
 
     def vector(self, generation: int) -> list[float]:
-        """All scalars in order, as they are in a generation (counted from 1)."""
+        """Return all scalars in order, as they are in a generation (counted from 1)."""
         return [
             float(value) for value in evaluate(self.scalars, lambda node, _: _generation(node, generation))
         ]
 
     def plain(self, name: str) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
-        """A constant's value as plain data; None where it depends on the generation."""
+        """Return a constant's value as plain data; None where it depends on the generation."""
         return _plain(self.values[name])
 
     def static(self, node: Node) -> float | None:
-        """The value of a node of constants, where it is the same in every generation."""
-        if any(found.operation in LEAVES and not self._is_static(found) for found in needed([node])):
+        """Return the value of a node of constants; None where it is not the same in every generation."""
+        if any(leaf.operation in LEAVES and not self._is_static(leaf) for leaf in needed([node])):
             return None
         return float(evaluate([node], self._at_leaf)[0])
 
@@ -67,7 +67,7 @@ class Constants:
         return cast("float", value_of(self.scalars[place]))
 
     def whole(self, data: Hashable) -> bool:
-        """Whether a constant, or every constant that a gather may read, is certainly whole."""
+        """Return whether a constant, or every constant that a gather may read, is certainly whole."""
         places = [data] if isinstance(data, int) else _places(data)
         return all(self.wholes[place] for place in places)
 
@@ -101,7 +101,7 @@ def read_constants(
     findings: Findings,
     unusable: frozenset[str],
 ) -> Constants:
-    """Evaluate the constants; draws come from the stream of (seed, the constant's name)."""
+    """Evaluate the constants, with draws from the stream of (seed, the constant's name)."""
     bindings: dict[str, Binding] = {
         GENERATION: Shared(graph.leaf("slot", GENERATION, Kind.NUMBER, Level.CALL)),
         **dict.fromkeys(unusable, Unusable()),
@@ -109,19 +109,19 @@ def read_constants(
     base = Scope(graph, bindings, findings)
     constants_key = streams.fold(seed_key, streams.name_word("constants"))
     values: dict[str, Value] = {}
-    for name in _in_order(written, unusable):
+    for name in _dependency_order(written, unusable):
         path: Path = ("constants", name)
         key = streams.fold(constants_key, streams.name_word(name))
-        values[name] = _settled(_read(written[name], base, path), key, base.at(path), written[name])
+        values[name] = _with_draws(_read(written[name], base, path), key, base.at(path), written[name])
         bindings[name] = Shared(values[name])
     ordered = {name: values[name] for name in written if name in values}
     scalars: list[Node] = []
-    leaves = {name: _leaf(value, scalars, graph) for name, value in ordered.items()}
+    leaves = {name: _leaves(value, scalars, graph) for name, value in ordered.items()}
     whole = whole_nodes(scalars, {GENERATION: True}, lambda _: False)
     return Constants(ordered, tuple(scalars), leaves, tuple(whole[node.number] for node in scalars))
 
 
-def _in_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
+def _dependency_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
     used = {
         name: names_used_in(expressions_in(value)) for name, value in written.items() if name not in unusable
     }
@@ -130,12 +130,13 @@ def _in_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[s
 
 def _read(written: Nested, scope: Scope, path: Path) -> Value:
     if isinstance(written, tuple):
-        return tuple(_read(item, scope, (*path, place)) for place, item in enumerate(written))
-    found = elaboration.value(written.tree, scope.at(path, 0, draws=True))
-    return _numbers_only(found, scope.at(path), written)
+        return tuple(_read(item, scope, (*path, index)) for index, item in enumerate(written))
+    value = elaboration.value(written.tree, scope.at(path, 0, draws=True))
+    return _numbers_only(value, scope.at(path), written)
 
 
 def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
+    """Return a value with truths reported and replaced by unknown numbers."""
     if isinstance(value, tuple):
         return tuple(_numbers_only(item, scope, written) for item in value)
     if value.kind is Kind.TRUTH:
@@ -144,13 +145,13 @@ def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
     return value
 
 
-def _settled(value: Value, key: int, scope: Scope, written: Nested) -> Value:
-    """The value with its draws drawn from the stream of `key`; what depends on the generation stays open."""
+def _with_draws(value: Value, key: int, scope: Scope, written: Nested) -> Value:
+    """Return the value with its draws made from the stream of `key`; it may still depend on the generation."""
     if isinstance(value, tuple):
-        parts = written if isinstance(written, tuple) else (written,) * len(value)
-        return tuple(_settled(item, key, scope, part) for item, part in zip(value, parts, strict=True))
+        texts = written if isinstance(written, tuple) else (written,) * len(value)
+        return tuple(_with_draws(item, key, scope, text) for item, text in zip(value, texts, strict=True))
     try:
-        return rebuilt(value, scope.graph, lambda node, operands: _drawn(node, operands, key, scope.graph))
+        return rebuilt(value, scope.graph, lambda node, operands: _draw(node, operands, key, scope.graph))
     except _DrawsWithGenerationError:
         span = expressions_in(written)[0].tree.span
         return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)
@@ -160,7 +161,7 @@ class _DrawsWithGenerationError(Exception):
     pass
 
 
-def _drawn(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
+def _draw(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
     if node.operation != "draw":
         return node
     if not all(operand.literal for operand in operands):
@@ -170,9 +171,10 @@ def _drawn(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
     return graph.truth(value=bool(drawn)) if node.kind is Kind.TRUTH else graph.number(drawn)
 
 
-def _leaf(value: Value, scalars: list[Node], graph: Graph) -> Value:
+def _leaves(value: Value, scalars: list[Node], graph: Graph) -> Value:
+    """Return the leaves by which a kernel reads a constant's scalars, and append those to `scalars`."""
     if isinstance(value, tuple):
-        return tuple(_leaf(item, scalars, graph) for item in value)
+        return tuple(_leaves(item, scalars, graph) for item in value)
     scalars.append(value)
     return (
         value

@@ -1,4 +1,4 @@
-"""Whether conditions provably cover everything: by cases over the comparisons they are made of."""
+"""Whether conditions provably cover everything: a proof by cases over the comparisons in them."""
 
 from __future__ import annotations
 
@@ -14,29 +14,33 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
 MAX_CASES = 4096
+"""Combinations of cases to go through."""
 MAX_WORK = 1_000_000
+"""Cases times nodes of the condition."""
 MAX_ATOMS = 300
+"""Comparisons of one value: each is computed at every bound and between them."""
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
 
 def covers_everything(conditions: list[Node], graph: Graph) -> bool:
-    """True if at least one condition holds in every case that numbers can be in.
+    """Return whether at least one condition provably holds, whatever the values compared in them.
 
-    Comparisons of one value with known bounds are decided together, in and between the bounds; two values are
-    below, equal or above; anything else is free. NaN is no case: it falls into the last cell.
+    Comparisons of one value with known bounds are decided together, at and between the bounds; of two values, the
+    first is below, equal to or above the second; any other truth is free. NaN is no case: it falls into the last
+    cell. Where there are too many cases to go through, nothing is proven.
     """
-    anything = graph.fold("|", conditions)
-    if anything.literal:
-        return bool(value_of(anything))
-    nodes = _down_to_atoms(anything)
+    any_holds = graph.fold("|", conditions)
+    if any_holds.literal:
+        return bool(value_of(any_holds))
+    nodes = _down_to_atoms(any_holds)
     cases = 1
     choices: dict[tuple[int, ...], list[dict[int, bool]]] = {}
-    for key, group in _groups(node for node in nodes if _is_atom(node)).items():
+    for subject, group in _by_subject(node for node in nodes if _is_atom(node)).items():
         if len(group) > MAX_ATOMS:
             return False
-        choices[key] = _cases(group)
-        cases *= len(choices[key])
+        choices[subject] = _cases(group)
+        cases *= len(choices[subject])
         if cases > MAX_CASES:
             return False
     if cases * len(nodes) > MAX_WORK:
@@ -45,15 +49,15 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
 
 
 def _down_to_atoms(condition: Node) -> list[Node]:
-    """The truths that a condition is made of, operands first; what an atom compares is not looked into."""
-    found: dict[int, Node] = {}
+    """Return the truths that a condition consists of, operands first, down to atoms (comparisons and free truths)."""
+    nodes: dict[int, Node] = {}
     waiting = [condition]
     while waiting:
         node = waiting.pop()
-        if node.number not in found:
-            found[node.number] = node
+        if node.number not in nodes:
+            nodes[node.number] = node
             waiting.extend(() if _is_atom(node) else node.operands)
-    return [found[number] for number in sorted(found)]
+    return [nodes[number] for number in sorted(nodes)]
 
 
 def _is_atom(node: Node) -> bool:
@@ -64,7 +68,7 @@ def _is_atom(node: Node) -> bool:
     )
 
 
-def _groups(atoms: Iterable[Node]) -> dict[tuple[int, ...], list[Node]]:
+def _by_subject(atoms: Iterable[Node]) -> dict[tuple[int, ...], list[Node]]:
     groups: dict[tuple[int, ...], list[Node]] = {}
     for atom in atoms:
         groups.setdefault(_subject(atom), []).append(atom)
@@ -72,7 +76,7 @@ def _groups(atoms: Iterable[Node]) -> dict[tuple[int, ...], list[Node]]:
 
 
 def _subject(atom: Node) -> tuple[int, ...]:
-    """The same for atoms about the same thing: the value compared with numbers, or the pair of values."""
+    """Return what an atom is about: the value that it compares with a number, or the pair of values."""
     if atom.operation not in COMPARISONS:
         return (-1, atom.number)
     left, right = atom.operands
@@ -82,6 +86,7 @@ def _subject(atom: Node) -> tuple[int, ...]:
 
 
 def _cases(group: list[Node]) -> list[dict[int, bool]]:
+    """Return the truths that atoms about one subject can have together."""
     first = group[0]
     if first.operation not in COMPARISONS:
         return [{first.number: truth} for truth in (False, True)]
@@ -89,34 +94,35 @@ def _cases(group: list[Node]) -> list[dict[int, bool]]:
         bounds = sorted({float(value_of(node)) for atom in group for node in atom.operands if node.literal})
         between = [low / 2 + high / 2 for low, high in pairwise(bounds)]
         points = [-inf, *bounds, *between, inf]
-        return [{atom.number: _compared(atom, point) for atom in group} for point in points]
-    return [{atom.number: _ordered(atom, order) for atom in group} for order in (-1, 0, 1)]
+        return [{atom.number: _truth_at(atom, point) for atom in group} for point in points]
+    return [{atom.number: _truth_in_order(atom, order) for atom in group} for order in (-1, 0, 1)]
 
 
-def _compared(atom: Node, point: float) -> bool:
+def _truth_at(atom: Node, point: float) -> bool:
     left, right = (value_of(node) if node.literal else point for node in atom.operands)
     return bool(INFIX[atom.operation](left, right))
 
 
-def _ordered(atom: Node, order: int) -> bool:
+def _truth_in_order(atom: Node, order: int) -> bool:
+    """Return an atom's truth where its value of lower number is below (-1), equal to (0) or above (1) the other."""
     left, right = atom.operands
     operation = atom.operation if left.number < right.number else MIRRORED[atom.operation]
     return bool(INFIX[operation](order, 0))
 
 
 def _holds(nodes: Sequence[Node], combination: Iterable[Mapping[int, bool]]) -> bool:
-    """Whether the last of the nodes is true, given truths for the atoms among them."""
+    """Return whether the last of the nodes is true, given the truths of the atoms among them."""
     truths: dict[int, bool] = {}
     for case in combination:
         truths.update(case)
     for node in nodes:
         if node.number not in truths:
-            truths[node.number] = _decided(node, truths)
+            truths[node.number] = _evaluate(node, truths)
     return truths[nodes[-1].number]
 
 
-def _decided(node: Node, truths: Mapping[int, bool]) -> bool:
-    """The truth of what is made of truths; `node` is no atom."""
+def _evaluate(node: Node, truths: Mapping[int, bool]) -> bool:
+    """Return the truth of a node that is no atom, given those of its operands."""
     if node.literal:
         return bool(value_of(node))
     return bool(compute(node.operation, [truths[operand.number] for operand in node.operands]))

@@ -1,4 +1,4 @@
-"""Definitions: names and parameters from their keys, and who shares a namespace with whom."""
+"""Definitions, and which names of a spec exclude each other or need each other in a circle."""
 
 from __future__ import annotations
 
@@ -16,120 +16,126 @@ if TYPE_CHECKING:
 
     from bbsd.expression.tree import Expr
 
-LINK = 8
-"""Frames that Python needs to get from a name to the expression behind it."""
-MAX_HEIGHT = 600
-"""Frames for a chain of names; Python has 1000."""
+FRAMES_OF_A_NAME = 8
+"""Frames of Python's stack from a name to the expression behind it."""
+MAX_FRAMES = 600
+"""Frames for a chain of names, of the 1000 that Python has."""
 
 
 def read_definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
-    """Each definition by its name; of two by one name the second is told of and passed over."""
-    found: dict[str, Definition] = {}
+    """Return each definition by its name; report a duplicate and keep the first."""
+    definitions: dict[str, Definition] = {}
     for key, expression in written.items():
         path: Path = ("environment", "definitions", key)
         name, *parameters = signature(key)
-        if name in found:
-            _tell_twice(name, path, found[name].path, findings)
-        found.setdefault(name, Definition(tuple(parameters), expression.tree, path))
-    return found
+        if name in definitions:
+            _report_duplicate(name, path, definitions[name].path, findings)
+        definitions.setdefault(name, Definition(tuple(parameters), expression.tree, path))
+    return definitions
 
 
-def shared_namespace(spec: Spec, defined: Mapping[str, Definition]) -> list[tuple[str, Path]]:
-    """Every name of the shared namespace and the place that makes it."""
+def shared_namespace(spec: Spec, definitions: Mapping[str, Definition]) -> list[tuple[str, Path]]:
+    """Return every name of the shared namespace with the path that makes it."""
     environment = spec.environment
     return [
         *((name, ("constants", name)) for name in spec.constants),
         *((name, ("environment", "world", name)) for name in environment.world),
         *((name, ("environment", "state", name)) for name in environment.state),
-        *((name, definition.path) for name, definition in defined.items()),
+        *((name, definition.path) for name, definition in definitions.items()),
         *((name, ("environment", "sensors", name)) for name in environment.sensors),
     ]
 
 
-def report_duplicates(named: Iterable[tuple[str, Path]], findings: Findings) -> dict[str, Unusable]:
-    """Names that stand for two things; the second place is told of."""
+def report_duplicates(namespace: Iterable[tuple[str, Path]], findings: Findings) -> dict[str, Unusable]:
+    """Return the names that stand for two things, and report the second path of each."""
     first: dict[str, Path] = {}
-    found: dict[str, Unusable] = {}
-    for name, path in named:
+    duplicates: dict[str, Unusable] = {}
+    for name, path in namespace:
         if name in first:
-            _tell_twice(name, path, first[name], findings)
-            found[name] = Unusable()
+            _report_duplicate(name, path, first[name], findings)
+            duplicates[name] = Unusable()
         first.setdefault(name, path)
-    return found
+    return duplicates
 
 
-def _tell_twice(name: str, path: Path, first: Path, findings: Findings) -> None:
+def _report_duplicate(name: str, path: Path, first: Path, findings: Findings) -> None:
     message = f"{name} is already the name of something in {'.'.join(str(part) for part in first[:-1])}"
     advice = "constants, world, state, definitions and sensors share their names"
     findings.tell(path, "BB025", message, KEY, advice)
 
 
 def report_unordered(
-    spec: Spec, defined: Mapping[str, Definition], findings: Findings
+    spec: Spec, definitions: Mapping[str, Definition], findings: Findings
 ) -> dict[str, Unusable]:
-    """Names whose values would need themselves, or too long a chain of other values; which is told."""
+    """Return and report the names whose values need themselves, or too long a chain of other values."""
     environment = spec.environment
     derived = {
-        name: Needs.of([definition.expression], definition.parameters) for name, definition in defined.items()
+        name: Needs.of([definition.expression], definition.parameters)
+        for name, definition in definitions.items()
     }
     constants = {name: Needs.of(_trees(expressions_in(value))) for name, value in spec.constants.items()}
     starts = {
-        name: Needs.of([each.tree]) for name, each in (*environment.world.items(), *environment.state.items())
+        name: Needs.of([start.tree])
+        for name, start in (*environment.world.items(), *environment.state.items())
     }
-    sensors = {name: Needs.of(_trees(_conditions(each))) for name, each in environment.sensors.items()}
-    places = dict(reversed(shared_namespace(spec, defined)))
-    found = _circular(constants, places, findings)
+    sensors = {name: Needs.of(_trees(_conditions(sensor))) for name, sensor in environment.sensors.items()}
+    paths = dict(reversed(shared_namespace(spec, definitions)))
+    unordered = _report_circles(constants, paths, findings)
     # At the start there are no sensors yet, and later world and state are stored.
     for group in (starts | derived, derived | sensors):
-        found |= _circular(group, places, findings)
-        found |= _too_high(
-            {name: needs for name, needs in group.items() if name not in found}, places, findings
-        )
-    return found
+        unordered |= _report_circles(group, paths, findings)
+        ordered = {name: needs for name, needs in group.items() if name not in unordered}
+        unordered |= _report_long_chains(ordered, paths, findings)
+    return unordered
 
 
 class Needs(NamedTuple):
-    """What a value is computed from: names, and frames of Python's stack."""
+    """What evaluating a value needs: other names, and frames of Python's stack."""
 
     names: frozenset[str]
     frames: int
 
     @classmethod
     def of(cls, trees: Sequence[Expr], parameters: Sequence[str] = ()) -> Needs:
-        """What expressions need, of which those with these names are given."""
+        """Return what expressions need, in which the parameters are given."""
         used = frozenset[str]().union(*(names_used(tree, frozenset(parameters)) for tree in trees))
-        return cls(used, LINK + max(map(frames, trees), default=0))
+        return cls(used, FRAMES_OF_A_NAME + max(map(frames, trees), default=0))
 
 
-def _trees(written: Iterable[Expression]) -> list[Expr]:
-    return [each.tree for each in written]
+def _trees(expressions: Iterable[Expression]) -> list[Expr]:
+    return [expression.tree for expression in expressions]
 
 
-def _conditions(written: Expression | Mapping[str, Expression]) -> list[Expression]:
-    if isinstance(written, Expression):
-        return [written]
-    return [condition for condition in written.values() if condition.text != OTHERWISE]
+def _conditions(sensor: Expression | Mapping[str, Expression]) -> list[Expression]:
+    if isinstance(sensor, Expression):
+        return [sensor]
+    return [condition for condition in sensor.values() if condition.text != OTHERWISE]
 
 
-def _circular(
-    group: Mapping[str, Needs], places: Mapping[str, Path], findings: Findings
+def _report_circles(
+    group: Mapping[str, Needs], paths: Mapping[str, Path], findings: Findings
 ) -> dict[str, Unusable]:
-    told, involved = find_circles(uses_among({name: needs.names for name, needs in group.items()}))
-    for circle in told:
+    circles, involved = find_circles(uses_among({name: needs.names for name, needs in group.items()}))
+    for circle in circles:
         message = f"a circle: {' needs '.join(circle)}"
         advice = "keep one of the values as state, from step to step"
-        findings.tell(places[circle[0]], "BB063", message, KEY, advice)
+        findings.tell(paths[circle[0]], "BB063", message, KEY, advice)
     return dict.fromkeys(involved, Unusable())
 
 
-def _too_high(
-    group: Mapping[str, Needs], places: Mapping[str, Path], findings: Findings
+def _report_long_chains(
+    group: Mapping[str, Needs], paths: Mapping[str, Path], findings: Findings
 ) -> dict[str, Unusable]:
+    """Return the names at the end of too long a chain, and report where each such chain first is too long."""
     uses = uses_among({name: needs.names for name, needs in group.items()})
     weights = {name: needs.frames for name, needs in group.items()}
-    found = {name: Unusable() for name, height in chain_weights(uses, weights).items() if height > MAX_HEIGHT}
-    for name in found:
-        if found.keys().isdisjoint(uses[name]):  # the other way round would go through all that was found
+    too_long = {
+        name: Unusable() for name, weight in chain_weights(uses, weights).items() if weight > MAX_FRAMES
+    }
+    for name in too_long:
+        if too_long.keys().isdisjoint(
+            uses[name]
+        ):  # `uses[name].isdisjoint` would go through all of `too_long`
             message = f"{name} needs too long a chain of values, each computed from the next"
-            findings.tell(places[name], "BB060", message, KEY, "keep one of them as state")
-    return found
+            findings.tell(paths[name], "BB060", message, KEY, "keep one of them as state")
+    return too_long

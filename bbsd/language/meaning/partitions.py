@@ -22,19 +22,21 @@ if TYPE_CHECKING:
 
 TRUTH_CELLS = ("false", "true")
 MAX_CELLS = 1_000_000
+"""Cells of one table: a byte each in the table of every individual of a pool."""
 MAX_CELLS_IN_ALL = 10_000_000
+"""Cells of the tables of all behaviors together."""
 
 
 @dataclass(frozen=True, slots=True)
 class Partition:
-    """Labels of the cells in order, and the node of the index of the cell that holds."""
+    """The labels of the cells in order, and the node that computes the index of the present cell."""
 
     cells: Labels
     index: Node
 
 
 def is_partition(written: PartitionText) -> bool:
-    """Whether a sensor is written as a partition that is no plain expression."""
+    """Return whether a sensor is written as named cells, cut(...) or values(...), not as a plain expression."""
     return isinstance(written, dict) or (
         isinstance(written.tree, Call) and written.tree.function in ("cut", "values")
     )
@@ -43,10 +45,10 @@ def is_partition(written: PartitionText) -> bool:
 def elaborate_partition(
     written: PartitionText, scope: Scope, path: Path, robot: int | None
 ) -> Partition | None:
-    """The cells of a partition and where the robot is in it; None after a mistake."""
+    """Return the cells of a partition and the index of the robot's; None after a mistake."""
     here = scope.at(path, robot, draws=scope.draws is not None)
     if isinstance(written, dict):
-        return _named(written, scope, path, robot)
+        return _named_cells(written, scope, path, robot)
     tree = written.tree
     if isinstance(tree, Call) and tree.function == "cut":
         return _cut(tree, here)
@@ -56,15 +58,15 @@ def elaborate_partition(
 
 
 def _truth(written: Expression, scope: Scope) -> Partition | None:
-    found = elaboration.value(written.tree, scope)
-    if isinstance(found, tuple) or found.kind is Kind.NUMBER:
-        what = "a list" if isinstance(found, tuple) else "a number"
+    value = elaboration.value(written.tree, scope)
+    if isinstance(value, tuple) or value.kind is Kind.NUMBER:
+        what = "a list" if isinstance(value, tuple) else "a number"
         advice = (
             f"cut it: cut({written.text}, ...) or values({written.text}, first, last), or write a condition"
         )
         scope.mistake("BB030", f"an input needs a partition, and this is {what}", written.tree.span, advice)
         return None
-    return None if found.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", found))
+    return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", value))
 
 
 def _cut(tree: Call, scope: Scope) -> Partition | None:
@@ -73,13 +75,13 @@ def _cut(tree: Call, scope: Scope) -> Partition | None:
             "BB031", "cut takes a number and the bounds between its cells: cut(tilt, 2, 5)", tree.span
         )
         return None
-    of, *bounds = tree.arguments
-    number = elaboration.number(of, scope)
+    number_tree, *bounds = tree.arguments
+    number = elaboration.number(number_tree, scope)
     nodes = [elaboration.number(bound, scope) for bound in bounds]
     if any(node.kind is Kind.UNKNOWN for node in (number, *nodes)):
         return None
-    known = [value_of(node) if node.literal else scope.static(node) for node in nodes]
-    for (low, high), bound in zip(pairwise(known), bounds[1:], strict=True):
+    values = [value_of(node) if node.literal else scope.static(node) for node in nodes]
+    for (low, high), bound in zip(pairwise(values), bounds[1:], strict=True):
         if low is not None and high is not None and not low < high:
             scope.mistake("BB031", f"bounds must grow, and {high:g} does not exceed {low:g}", bound.span)
             return None
@@ -102,8 +104,8 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
             tree.span,
         )
         return None
-    of, first_tree, last_tree = tree.arguments
-    number = elaboration.whole(of, scope, "what values(...) divides")
+    number_tree, first_tree, last_tree = tree.arguments
+    number = elaboration.whole(number_tree, scope, "what values(...) divides")
     first = elaboration.static_whole(first_tree, scope, "the first value")
     last = elaboration.static_whole(last_tree, scope, "the last value")
     if number.kind is Kind.UNKNOWN or first is None or last is None:
@@ -120,7 +122,9 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
     return Partition(Numbers(first, last), graph.apply("clamp_index", offset, data=last - first))
 
 
-def _named(written: dict[str, Expression], scope: Scope, path: Path, robot: int | None) -> Partition | None:
+def _named_cells(
+    written: dict[str, Expression], scope: Scope, path: Path, robot: int | None
+) -> Partition | None:
     labels = tuple(written)
     trees = list(written.values())
     final = isinstance(trees[-1].tree, Name) and trees[-1].tree.name == OTHERWISE if trees else False

@@ -1,4 +1,4 @@
-"""What a spec's view shows, as nodes that read what is stored after a step."""
+"""What a spec's view shows, as nodes that read the values stored after a step."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from bbsd.language.view import View
 
 Row = tuple[Node, ...]
-"""Numbers beside each other: a place as x, y and perhaps a radius, or a row of a table."""
+"""A row of numbers: x, y and perhaps a radius of a place, or a row of a table."""
 
 PLACE = "a place, [x, y] or [x, y, radius]"
 
@@ -40,27 +40,27 @@ class Picture:
 
 
 def elaborate_picture(view: View, moment: Moment) -> Picture:
-    """Elaborate a view at a moment; its mistakes are told."""
+    """Return what a view shows at a moment, and report its mistakes."""
     names = moment.names
     scopes = [moment.scope.at(("view",), robot) for robot in names.robots]
     team = moment.scope.at(("view",), names.team)
     return Picture(
-        places=tuple(_place(_read(view.at, each, "at")) for each in scopes),
+        places=tuple(_place(_read(view.at, scope, "at")) for scope in scopes),
         headings=None
         if view.heading is None
-        else tuple(_read(view.heading, each, "heading").number() for each in scopes),
+        else tuple(_read(view.heading, scope, "heading").number() for scope in scopes),
         area=None if view.area is None else _area(_read(view.area, team, "area")),
         circles=() if view.circles is None else _circles(_read(view.circles, team, "circles")),
         grid=None if view.grid is None else _grid(_read(view.grid, team, "grid")),
-        marks={name: _place(_read(each, team, "marks", name)) for name, each in view.marks.items()},
+        marks={name: _place(_read(place, team, "marks", name)) for name, place in view.marks.items()},
     )
 
 
 @dataclass(frozen=True, slots=True)
 class _Read:
-    """A value, and where its mistakes are told: at its own place in a list, or at the expression that it is of."""
+    """A value and where to report its mistakes: at its own item of a list, or at the expression that gives it."""
 
-    found: Value
+    value: Value
     written: Nested
     scope: Scope
 
@@ -70,47 +70,46 @@ class _Read:
 
     @property
     def is_unknown(self) -> bool:
-        return isinstance(self.found, Node) and self.found.kind is Kind.UNKNOWN
+        return isinstance(self.value, Node) and self.value.kind is Kind.UNKNOWN
 
-    def tell(self, needed: str) -> None:
-        """Say what is needed in the place of what is there."""
-        is_list = isinstance(self.found, tuple)
-        there = f"a list of {len(self.found)}" if is_list else "one value"  # type: ignore[arg-type]  # a list
-        self.scope.mistake("BB049", f"this must be {needed}, not {there}", self.span)
+    def report_shape(self, needed: str) -> None:
+        """Report that the value has another shape than needed."""
+        given = f"a list of {len(self.value)}" if isinstance(self.value, tuple) else "one value"
+        self.scope.mistake("BB049", f"this must be {needed}, not {given}", self.span)
 
     def number(self) -> Node:
-        """A number; anything else is a mistake."""
-        return of_kind(self.found, Kind.NUMBER, self.span, self.scope)
+        """Return the value as a number; report anything else."""
+        return of_kind(self.value, Kind.NUMBER, self.span, self.scope)
 
     def rows(self, fewest: int = 0) -> tuple[_Read, ...]:
-        """The items of a list; anything else, or too short a one, is a mistake."""
-        if isinstance(self.found, tuple) and len(self.found) >= fewest:
-            return tuple(self._item(place, each) for place, each in enumerate(self.found))
+        """Return the items of a list; report anything else, or too short a list."""
+        if isinstance(self.value, tuple) and len(self.value) >= fewest:
+            return tuple(self._item(index, value) for index, value in enumerate(self.value))
         if not self.is_unknown:
-            self.tell("a list of rows")
+            self.report_shape("a list of rows")
         return ()
 
-    def _item(self, place: int, found: Value) -> _Read:
+    def _item(self, index: int, value: Value) -> _Read:
         if isinstance(self.written, Expression):
-            return _Read(found, self.written, self.scope)
-        here = self.scope.at((*self.scope.path, place), self.scope.robot)
-        return _Read(found, self.written[place], here)
+            return _Read(value, self.written, self.scope)
+        scope = self.scope.at((*self.scope.path, index), self.scope.robot)
+        return _Read(value, self.written[index], scope)
 
     def row(self, lengths: Collection[int], needed: str) -> Row:
-        """Numbers, as many as one of the lengths; nothing after a mistake."""
-        if isinstance(self.found, tuple) and len(self.found) in lengths:
-            return tuple(self._item(place, each).number() for place, each in enumerate(self.found))
+        """Return numbers, as many as one of the lengths; report anything else and return none."""
+        if isinstance(self.value, tuple) and len(self.value) in lengths:
+            return tuple(self._item(index, value).number() for index, value in enumerate(self.value))
         if not self.is_unknown:
-            self.tell(needed)
+            self.report_shape(needed)
         return ()
 
 
 def _read(written: Nested, scope: Scope, *keys: str | int) -> _Read:
-    here = scope.at((*scope.path, *keys), scope.robot)
+    inner = scope.at((*scope.path, *keys), scope.robot)
     if isinstance(written, tuple):
-        items = tuple(_read(item, here, place).found for place, item in enumerate(written))
-        return _Read(items, written, here)
-    return _Read(elaboration.value(written.tree, here), written, here)
+        items = tuple(_read(item, inner, index).value for index, item in enumerate(written))
+        return _Read(items, written, inner)
+    return _Read(elaboration.value(written.tree, inner), written, inner)
 
 
 def _place(read: _Read) -> Row:
@@ -118,11 +117,11 @@ def _place(read: _Read) -> Row:
 
 
 def _circles(read: _Read) -> tuple[Row, ...]:
-    return tuple(each.row((3,), "[x, y, radius]") for each in read.rows())
+    return tuple(circle.row((3,), "[x, y, radius]") for circle in read.rows())
 
 
 def _area(read: _Read) -> Row | None:
-    """The corners, which must lie apart as far as that is known."""
+    """Return the corners, and report them where they are known not to lie apart."""
     corners = read.row((4,), "[x, y, x, y], two corners")
     known = [read.scope.known(node) for node in corners if node.kind is not Kind.UNKNOWN]
     if len(known) == 4 and None not in known and (known[0] == known[2] or known[1] == known[3]):
@@ -131,8 +130,8 @@ def _area(read: _Read) -> Row | None:
 
 
 def _grid(read: _Read) -> tuple[Row, ...]:
-    """A table; all rows as long as the first."""
+    """Return a table, whose rows must all be as long as the first."""
     rows = read.rows(1)
-    first = rows[0].found if rows else ()
+    first = rows[0].value if rows else ()
     length = len(first) if isinstance(first, tuple) and first else 1
-    return tuple(each.row((length,), f"a row of {length} number{'s' * (length > 1)}") for each in rows)
+    return tuple(row.row((length,), f"a row of {length} number{'s' * (length > 1)}") for row in rows)

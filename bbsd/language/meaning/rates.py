@@ -1,4 +1,4 @@
-"""Settings that change over the generations or the episodes of a lifetime, as numbers for each of them."""
+"""Rates of mutation, learning and exploration: a number for each generation, or each episode of a lifetime."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from bbsd.language.models import Spec
 
 
-MOST_STEPS = 600_000
-"""Of computing a rate for all generations or episodes: a fifth of a second."""
+MAX_OPERATIONS = 600_000
+"""Operations that compute a rate for all generations or episodes: a fifth of a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,33 +34,35 @@ class Rates:
 
 
 def evaluate_rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapping[str, Binding]) -> Rates:
-    """Evaluate the rates; each must be a probability everywhere."""
-    generations, episodes = spec.design.coevolution.generations, spec.design.learning.episodes
-    counted = range(1, max(episodes, spec.design.learning.last) + 1)
+    """Evaluate the rates, and report each that is not a probability everywhere."""
+    coevolution, learning = spec.design.coevolution, spec.design.learning
+    all_generations = range(1, coevolution.generations + 1)
+    all_episodes = range(1, max(learning.episodes, learning.last) + 1)
     shared = {
         **constants,
-        "generations": Shared(graph.number(generations)),
-        "episodes": Shared(graph.number(episodes)),
+        "generations": Shared(graph.number(coevolution.generations)),
+        "episodes": Shared(graph.number(learning.episodes)),
     }
     generation = graph.leaf("slot", "generation", Kind.NUMBER, Level.CALL)
     episode = graph.leaf("slot", "episode", Kind.NUMBER, Level.CALL)
     scope = Scope(graph, {**shared, "generation": Shared(generation)}, findings)
-    written = spec.design.coevolution
-    every, path = range(1, generations + 1), ("design", "coevolution", "hard_mutation")
-    hard = _node(written.hard_mutation, scope, path)
-    hard_rates = _probabilities(hard, every, findings, path, "generation")
-    # What follows from a mistake in it is not told again.
-    known = hard if hard_rates else graph.unknown
-    scope = Scope(graph, {**scope.names, "hard_mutation": Shared(known)}, findings)
-    soft = _node(written.soft_mutation, scope, ("design", "coevolution", "soft_mutation"))
+    path = ("design", "coevolution", "hard_mutation")
+    hard = _node(coevolution.hard_mutation, scope, path)
+    hard_rates = _probabilities(hard, all_generations, findings, path, "generation")
+    # After a mistake in it, whatever uses it is unknown, so that the mistake is reported once.
+    hard_or_unknown = hard if hard_rates else graph.unknown
+    scope = Scope(graph, {**scope.names, "hard_mutation": Shared(hard_or_unknown)}, findings)
+    soft = _node(coevolution.soft_mutation, scope, ("design", "coevolution", "soft_mutation"))
     scope = Scope(graph, {**shared, "episode": Shared(episode)}, findings)
-    rate = _node(spec.design.learning.rate, scope, ("design", "learning", "rate"))
-    exploration = _node(spec.design.learning.exploration, scope, ("design", "learning", "exploration"))
+    rate = _node(learning.rate, scope, ("design", "learning", "rate"))
+    exploration = _node(learning.exploration, scope, ("design", "learning", "exploration"))
     return Rates(
         hard_rates,
-        _probabilities(soft, every, findings, ("design", "coevolution", "soft_mutation"), "generation"),
-        _probabilities(rate, counted, findings, ("design", "learning", "rate"), "episode"),
-        _probabilities(exploration, counted, findings, ("design", "learning", "exploration"), "episode"),
+        _probabilities(
+            soft, all_generations, findings, ("design", "coevolution", "soft_mutation"), "generation"
+        ),
+        _probabilities(rate, all_episodes, findings, ("design", "learning", "rate"), "episode"),
+        _probabilities(exploration, all_episodes, findings, ("design", "learning", "exploration"), "episode"),
     )
 
 
@@ -69,9 +71,9 @@ def _node(written: Expression, scope: Scope, path: Path) -> Node:
 
 
 def _probabilities(
-    node: Node, counted: range, findings: Findings, path: Path, unit: str
+    node: Node, numbers: range, findings: Findings, path: Path, unit: str
 ) -> tuple[float, ...]:
-    """The values for generations or episodes, each of which must be a probability."""
+    """Return the values for generations or episodes; report one that is no probability and return none."""
     nodes = needed([node])
     unknown = {cast("str", leaf.data) for leaf in nodes if leaf.operation == "slot"} - {unit}
     if node.kind is Kind.UNKNOWN:
@@ -79,13 +81,13 @@ def _probabilities(
     if unknown:
         findings.tell(path, "BB066", f"this depends on the {unknown.pop()}, which is not known here")
         return ()
-    n_steps = sum(1 for each in nodes if each.operands)
-    if n_steps * len(counted) > MOST_STEPS:
-        message = f"this takes {n_steps} steps to compute, too many for {len(counted):,} {unit}s"
+    n_operations = sum(1 for node in nodes if node.operands)
+    if n_operations * len(numbers) > MAX_OPERATIONS:
+        message = f"this takes {n_operations} steps to compute, too many for {len(numbers):,} {unit}s"
         findings.tell(path, "BB068", message, WHOLE, f"write it shorter, or let there be fewer {unit}s")
         return ()
     values = []
-    for number, value in zip(counted, values_for(node, map(float, counted)), strict=True):
+    for number, value in zip(numbers, values_for(node, map(float, numbers)), strict=True):
         if not 0 <= value <= 1:
             findings.tell(path, "BB043", f"this is {value:g} in {unit} {number}; it must be from 0 to 1")
             return ()

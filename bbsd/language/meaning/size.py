@@ -1,4 +1,4 @@
-"""How large a task of design is: what is open, and how many designs there are."""
+"""The size of a design task: open cells and layers, and the number of possible designs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """Open cells and layers, and the number of designs as a logarithm to base 10."""
+    """Open cells and layers, and the number of possible designs as a logarithm to base 10."""
 
     open_cells: int
     open_layers: int
@@ -26,7 +26,7 @@ class Size:
 
 
 def size_of(modules: Sequence[Module], structure: Structure) -> Size:
-    """The size of a task; what is open in a behavior that a given structure leaves out does not count."""
+    """Return the size of a task; open cells of a behavior that a given structure leaves out do not count."""
     evolved = [module for index, module in enumerate(modules) if structure.may_hold(index)]
     open_cells = [module.table.given.count(OPEN_CELL) for module in evolved]
     choices = [

@@ -10,18 +10,18 @@ from typing import overload
 Labels = Sequence[str]
 """A partition's cells by name, in order."""
 
-WHOLE = re.compile(r"0|-?[1-9][0-9]{0,17}")
+WHOLE_NUMBER = re.compile(r"0|-?[1-9][0-9]{0,17}")
 
 
 @dataclass(frozen=True, slots=True)
 class Numbers(Sequence[str]):
-    """The cells of `values(e, first, last)`: the numbers, written when they are asked for, as there may be many."""
+    """The cells of `values(e, first, last)`: numbers, made into text only when needed, since there may be many."""
 
     first: int
     last: int
 
     def __len__(self) -> int:
-        """Return how many there are."""
+        """Return the number of cells."""
         return self.last - self.first + 1
 
     @overload
@@ -30,19 +30,19 @@ class Numbers(Sequence[str]):
     def __getitem__(self, index: slice) -> tuple[str, ...]: ...
     def __getitem__(self, index: int | slice) -> str | tuple[str, ...]:
         """Return a cell's name, or several."""
-        found = range(self.first, self.last + 1)[index]
-        return tuple(map(str, found)) if isinstance(found, range) else str(found)
+        numbers = range(self.first, self.last + 1)[index]
+        return tuple(map(str, numbers)) if isinstance(numbers, range) else str(numbers)
 
     def __contains__(self, label: object) -> bool:
-        """Say whether a text is one of the cells' names."""
+        """Return whether a text is one of the cells' names."""
         return (
             isinstance(label, str)
-            and WHOLE.fullmatch(label) is not None
+            and WHOLE_NUMBER.fullmatch(label) is not None
             and self.first <= int(label) <= self.last
         )
 
     def index(self, label: str, start: int = 0, stop: int | None = None) -> int:
-        """Return which cell has that name; raises ValueError if none from `start` up to `stop` has."""
-        if label in self and (place := int(label) - self.first) in range(len(self))[start:stop]:
-            return place
+        """Return the index of the cell with that name; raise ValueError if none from `start` up to `stop` has it."""
+        if label in self and (cell := int(label) - self.first) in range(len(self))[start:stop]:
+            return cell
         raise ValueError(f"{label!r} is not a cell")

@@ -1,4 +1,4 @@
-"""Rules to table cells: what a behavior's rules give, cell by cell, and what they leave open."""
+"""From rules to the cells of a behavior's table: what the rules decide, and what they leave open."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Findings, Path
     from bbsd.language.meaning.tables.labels import Labels
 
-MAX_LOOKED_AT = 30_000_000
+MAX_MATCHED = 30_000_000
+"""Cells that all rules of a behavior match, each counted once a rule that matches it."""
 OTHER_TRUTHS = {"yes": "true", "on": "true", "1": "true", "no": "false", "off": "false", "0": "false"}
 
 
@@ -29,46 +30,44 @@ def table_of_rules(
     findings: Findings,
     unusable: Collection[str] = (),
 ) -> Table:
-    """The cells that rules decide, the first match first; mistakes are told and the rule is passed over.
+    """Return the cells that rules decide, each by the first rule that matches it; report mistakes and skip the rule.
 
-    Nothing is said about the `unusable` names, whose own mistakes were told before.
+    No mistake is reported in the use of `unusable` names, whose own mistakes were reported before.
     """
-    decided = [
-        _decision(rule, actions, (*path, place), findings, unusable) for place, rule in enumerate(rules or ())
+    decisions = [
+        _decision(rule, actions, (*path, index), findings, unusable) for index, rule in enumerate(rules or ())
     ]
     sizes = [len(cells) for cells in inputs.values()]
-    given, undecided, looked_at = bytearray([OPEN_CELL]) * prod(sizes), bytearray([1]) * prod(sizes), 0
-    for place, (rule, decision) in enumerate(zip(rules or (), decided, strict=True)):
-        matched = _matched(rule, inputs, (*path, place), findings, unusable)
+    given, undecided, n_matched = bytearray([OPEN_CELL]) * prod(sizes), bytearray([1]) * prod(sizes), 0
+    for index, (rule, decision) in enumerate(zip(rules or (), decisions, strict=True)):
+        matched = _matched(rule, inputs, (*path, index), findings, unusable)
         if decision is None or matched is None:
             continue
-        looked_at += prod(len(cells) for cells in matched)
-        if looked_at > MAX_LOOKED_AT:
-            findings.tell(
-                path, "BB039", f"these rules match more than {MAX_LOOKED_AT} cells, one by one", KEY
-            )
+        n_matched += prod(len(cells) for cells in matched)
+        if n_matched > MAX_MATCHED:
+            findings.tell(path, "BB039", f"these rules match more than {MAX_MATCHED} cells, one by one", KEY)
             break
-        fresh = [cell for cell in _places(matched, sizes) if undecided[cell]]
+        fresh = [cell for cell in _cells_of_block(matched, sizes) if undecided[cell]]
         if not fresh:
             message = "this rule never applies: the rules before it decide all its cells"
-            findings.tell((*path, place), "BB037", message)
+            findings.tell((*path, index), "BB037", message)
         for cell in fresh:
             given[cell], undecided[cell] = decision, 0
     return Table(bytes(given))
 
 
-def _places(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> list[int]:
-    """Where the cells of a block stand in row-major order."""
-    places = [0]
+def _cells_of_block(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> list[int]:
+    """Return the row-major indices of all combinations of the inputs' cells."""
+    indices = [0]
     for cells, size in zip(matched, sizes, strict=True):
-        places = [place * size + cell for place in places for cell in cells]
-    return places
+        indices = [index * size + cell for index in indices for cell in cells]
+    return indices
 
 
 def _decision(
     rule: Rule, actions: Sequence[str], path: Path, findings: Findings, unusable: Collection[str]
 ) -> int | None:
-    """What a cell holds where the rule decides; None where that is no action."""
+    """Return what a cell holds where the rule decides; None where that is no action."""
     key, word = ("otherwise", rule.otherwise) if isinstance(rule, Otherwise) else ("do", rule.do)
     if word in (NO_ACTION_TEXT, OPEN):
         return NO_ACTION if word == NO_ACTION_TEXT else OPEN_CELL
@@ -87,11 +86,11 @@ def _decision(
 def _matched(
     rule: Rule, inputs: Inputs, path: Path, findings: Findings, unusable: Collection[str]
 ) -> list[Sequence[int]] | None:
-    """For each input, the cells that the rule matches; None after a mistake."""
+    """Return for each input the cells that the rule matches; None after a mistake."""
     when = {} if isinstance(rule, Otherwise) else rule.when
     for name in when:
         if name not in inputs and name not in unusable:
-            hint = did_you_mean(name, inputs) or f"; {_inputs_named(inputs)}"
+            hint = did_you_mean(name, inputs) or f"; {_inputs_advice(inputs)}"
             message = f'"{name}" is not an input of this behavior{hint}'
             findings.tell((*path, "when", name), "BB034", message, KEY)
     matched = [_cells_matched(name, cells, when, path, findings) for name, cells in inputs.items()]
@@ -99,7 +98,7 @@ def _matched(
     return understood if when.keys() <= inputs.keys() and len(understood) == len(matched) else None
 
 
-def _inputs_named(inputs: Inputs) -> str:
+def _inputs_advice(inputs: Inputs) -> str:
     return f"its inputs: {', '.join(inputs)}" if inputs else "it has none"
 
 
@@ -108,17 +107,17 @@ def _cells_matched(
 ) -> Sequence[int] | None:
     if name not in when:
         return range(len(cells))
-    named = [_cells(word, cells) for word in when[name]]
-    for place, (word, found) in enumerate(zip(when[name], named, strict=True)):
-        if found is None:
-            message = f'"{word}" is not a cell of {name}{_cell_meant(word, cells)}'
-            findings.tell((*path, "when", name, place), "BB035", message, WHOLE, _cells_advice(cells))
+    named = [_cells_named(word, cells) for word in when[name]]
+    for index, (word, matched) in enumerate(zip(when[name], named, strict=True)):
+        if matched is None:
+            message = f'"{word}" is not a cell of {name}{_did_you_mean(word, cells)}'
+            findings.tell((*path, "when", name, index), "BB035", message, WHOLE, _cells_advice(cells))
     if None in named:
         return None
-    return sorted({cell for found in named for cell in found or ()})
+    return sorted({cell for matched in named for cell in matched or ()})
 
 
-def _cell_meant(word: str, cells: Labels) -> str:
+def _did_you_mean(word: str, cells: Labels) -> str:
     truth = OTHER_TRUTHS.get(word.lower(), "")
     return f'; did you mean "{truth}"?' if truth in cells else did_you_mean(word, cells)
 
@@ -131,8 +130,8 @@ def _cells_advice(cells: Labels) -> str:
 RANGE = re.compile(r"below (?P<below>.+)|from (?P<from>.+)|(?P<low>.+?) to (?P<high>.+)")
 
 
-def _cells(word: str, cells: Labels) -> range | None:
-    """The cells a word names: one, or a range of the cells of a cut."""
+def _cells_named(word: str, cells: Labels) -> range | None:
+    """Return the cells that a word names: one, or a range of the cells of a cut."""
     if word in cells:
         return range(cells.index(word), cells.index(word) + 1)
     bounds = _bounds(cells)
@@ -149,7 +148,7 @@ def _cells(word: str, cells: Labels) -> range | None:
 
 
 def _bounds(cells: Labels) -> list[str] | None:
-    """The bounds of a cut, read off its cells."""
+    """Return the bounds of a cut, read off its cells; None for cells of another partition."""
     if not (len(cells) >= 2 and cells[0].startswith("below ") and cells[-1].startswith("from ")):
         return None
     return [cells[0].removeprefix("below "), *(cell.split(" to ", 1)[1] for cell in cells[1:-1])]

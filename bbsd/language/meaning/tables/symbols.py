@@ -1,4 +1,4 @@
-"""A table as text: a character for each cell, in row-major order of the inputs; white space only divides it."""
+"""A table as text: a character for each cell, in row-major order of the inputs; white space is ignored."""
 
 from __future__ import annotations
 
@@ -21,14 +21,13 @@ if TYPE_CHECKING:
 
 ACCENTED = "".join(map(chr, (*range(0xC0, 0xD7), *range(0xD8, 0xF7), *range(0xF8, 0x180))))
 ACTIONS = "123456789" + ascii_letters + ACCENTED
-"""What stands for the first action, the second, and so on: enough for as many as a behavior may have."""
+"""The characters for the first action, the second, and so on: as many as a behavior may have, and more."""
 SYMBOLS = {NO_ACTION: ".", OPEN_CELL: "?"} | dict(enumerate(ACTIONS[:200], 1))
 CELLS = {symbol: cell for cell, symbol in SYMBOLS.items()} | {"0": NO_ACTION}
 CODES = {ord(symbol): cell for symbol, cell in CELLS.items()}
-MOST_TOLD = 5
-"""Characters that stand for nothing, of one table."""
-LINE = 90
-"""Characters of a line."""
+MAX_REPORTED = 5
+"""Wrong characters of one table that are reported."""
+LINE_LENGTH = 90
 
 
 def table_of_text(
@@ -40,18 +39,18 @@ def table_of_text(
     *,
     is_known: bool = True,
 ) -> Table:
-    """The cells that a text gives; where it does not fit they are open, and what is wrong is told.
+    """Return the cells that a text gives; where it does not fit, report why and return a table of open cells.
 
-    With `is_known` False, inputs or actions had mistakes that were told before, so nothing is said of how many there
-    should be.
+    With `is_known` False, inputs or actions had mistakes that were reported before, so no mistake is reported in the
+    number of cells or actions.
     """
     n_cells, compact = prod(map(len, inputs.values())), _compact(text)
     used = _symbols(text)
     wrong = used - CELLS.keys()
     if is_known:
         wrong |= {symbol for symbol in used & CELLS.keys() if len(actions) < CELLS[symbol] < OPEN_CELL}
-    for symbol in sorted(wrong, key=text.index)[:MOST_TOLD]:
-        message, advice = _no_cell(symbol, actions)
+    for symbol in sorted(wrong, key=text.index)[:MAX_REPORTED]:
+        message, advice = _wrong_symbol(symbol, actions)
         findings.tell(path, "BB046", message, Span(text.index(symbol), 1), advice)
     if is_known and len(compact) != n_cells:
         findings.tell(path, "BB046", *_wrong_length(text, len(compact), inputs))
@@ -61,27 +60,27 @@ def table_of_text(
 
 
 def text_of_table(cells: Sequence[int], inputs: Inputs) -> str:
-    """The text of a table, in lines of whole rows of the last input where they are not too long."""
+    """Return the text of a table, in lines of whole rows of the last input where they are not too long."""
     row = len([*inputs.values()][-1]) if inputs else 1
-    width = row * (LINE // row) or LINE
+    width = row * (LINE_LENGTH // row) or LINE_LENGTH
     text = "".join(map(SYMBOLS.__getitem__, cells))
     return "".join(f"{text[start : start + width]}\n" for start in range(0, len(text), width))
 
 
 def filled_text(text: str, cells: Iterable[int]) -> str:
-    """A table's text with what is open in it set to the table's cells, everything else as it was."""
-    left = iter(cells)
+    """Return a table's text with its open cells filled from the table, and all else as it was."""
+    remaining = iter(cells)
 
-    def filled(symbol: str) -> str:
+    def fill(symbol: str) -> str:
         if symbol.isspace():
             return symbol
-        cell = next(left)
+        cell = next(remaining)
         return SYMBOLS[cell] if symbol == SYMBOLS[OPEN_CELL] else symbol
 
-    return "".join(map(filled, text))
+    return "".join(map(fill, text))
 
 
-# Many behaviors may repeat the same long text: it is gone through once.
+# Many behaviors may repeat the same long text: caching the last one goes through it once.
 @lru_cache(maxsize=1)
 def _compact(text: str) -> str:
     return "".join(text.split())
@@ -92,18 +91,18 @@ def _symbols(text: str) -> frozenset[str]:
     return frozenset(_compact(text))
 
 
-def _no_cell(symbol: str, actions: Sequence[str]) -> tuple[str, str]:
-    """What is said of a character that stands for nothing, and the advice."""
+def _wrong_symbol(symbol: str, actions: Sequence[str]) -> tuple[str, str]:
+    """Return message and advice for a character that stands for no cell of a table."""
     last = f" to {ACTIONS[len(actions) - 1]}" if len(actions) > 1 else ""
-    known = f"1{last}: {', '.join(actions)}" if actions else "none"
-    advice = f". or 0: no action; {known}; ?: open"
+    numbered = f"1{last}: {', '.join(actions)}" if actions else "none"
+    advice = f". or 0: no action; {numbered}; ?: open"
     if CELLS.get(symbol, 0):
         return f'"{symbol}" stands for action {CELLS[symbol]}, and there are {len(actions)}', advice
     return f'"{symbol}" stands for nothing in a table', advice
 
 
 def _wrong_length(text: str, n_given: int, inputs: Inputs) -> tuple[str, Span, str]:
-    """What is said of a table with too many cells or too few, and where: a line unlike the others, or the end."""
+    """Return message, span and advice for a table with too many cells or too few: an odd line, or the end."""
     sizes = [f"{len(cells):,} of {name}" for name, cells in inputs.items()]
     product = f" ({' x '.join(sizes)})" if len(sizes) > 1 else ""
     given, wanted = f"{n_given:,} cell{'s' * (n_given != 1)}", prod(map(len, inputs.values()))
@@ -115,7 +114,7 @@ def _wrong_length(text: str, n_given: int, inputs: Inputs) -> tuple[str, Span, s
 def _where_wrong(text: str) -> tuple[Span, str]:
     lengths = [len(line) for line in text.split()]
     [(usual, times)] = Counter(lengths).most_common(1) or [(0, 0)]
-    odd = next((place for place, length in enumerate(lengths[:-1]) if length != usual), None)
+    odd = next((index for index, length in enumerate(lengths[:-1]) if length != usual), None)
     if odd is None or times < 2:
         return Span(max(0, len(text.rstrip()) - 1), 1), "the last input changes fastest"
     start = next(islice(re.finditer(r"\S+", text), odd, None)).start()
