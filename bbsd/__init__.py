@@ -1,8 +1,8 @@
 """Automatic design of behavior-based agents from a declarative spec.
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
-spec with the holes filled. The verbs are the command line's: `load`, `check`, `compile`, `design`, `evaluate`,
-`explain`, and `trace` for one episode; `bbsd.api` says what each takes and gives.
+spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
+`evaluate`, `explain`, and `trace` for one episode; `bbsd.api` documents them.
 """
 
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ __all__ = ["__version__", "check", "compile", "design", "evaluate", "explain", "
 
 
 def __getattr__(name: str) -> object:
-    """The verbs, imported when the first of them is used: numba alone takes an eighth of a second."""
+    """Return a function of `bbsd.api`, which is imported only then: numba alone takes an eighth of a second."""
     if name not in __all__:
         raise AttributeError(f"module 'bbsd' has no attribute {name!r}")
     from bbsd import api

@@ -1,4 +1,10 @@
-"""The verbs: what the command line does, for programs."""
+"""The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, explain.
+
+A spec is given as the path of its file, or as what `load` returned. `overrides` are texts such as
+"design.coevolution.generations=10"; they replace values of the spec. `seed` is that of all random numbers: the same
+spec, overrides and seed give the same result. `lanes`, the episodes that a kernel runs side by side, and `jobs` affect
+only the speed.
+"""
 
 from __future__ import annotations
 
@@ -53,19 +59,19 @@ if TYPE_CHECKING:
     from bbsd.runs.processes import Processes
 
 EVALUATION = name_word("evaluation")
-EPISODES, EPISODES_AT_RANDOM = 1000, RANDOM_EPISODES
-"""Episodes that a design lives by default, and that each of many random agents does, as in a design's comparison."""
+EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES
+"""Numbers of episodes in an evaluation by default: of a design, and of each random agent, as after a design."""
 
-Spec = str | Path | Loaded
-"""A spec's file, or one that is loaded."""
+AnySpec = str | Path | Loaded
+"""The path of a spec's file, or a loaded spec."""
 
 
 class NothingToDesign(UsageError):
-    """A spec without holes."""
+    """A spec without holes was given to `design`."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """A design that was stopped; its state is in the folder and can be gone on from."""
+    """A design was stopped; its state is in `folder`, from which `design(..., resume=True)` continues."""
 
     def __init__(self, folder: Path) -> None:
         super().__init__(str(folder))
@@ -74,7 +80,7 @@ class Interrupted(KeyboardInterrupt):
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """What a design tells after each generation. Runs and generations count from 1."""
+    """How far a design is after a generation, and the fitness of its agents. Runs and generations count from 1."""
 
     run: int
     runs: int
@@ -87,17 +93,22 @@ class Progress:
 
 @dataclass(frozen=True, slots=True)
 class Designed:
-    """What a design came to."""
+    """The result of a design."""
 
     architecture: Path
+    """The file of the designed spec."""
     folder: Path
+    """The folder of all files of the design."""
     structure: tuple[str, ...]
-    """Highest layer first."""
+    """The names of the behaviors, highest layer first."""
     evaluation: Evaluation
-    """On episodes that took no part in choosing the design."""
+    """Its evaluation on episodes that took no part in choosing it."""
     lifetime: Interval
+    """The lifetime fitness of agents that have its behaviors and its structure at birth, and learn."""
     random: Interval
+    """The mean return of random agents, for comparison."""
     seconds: float
+    """How long the design took."""
 
     @property
     def mean(self) -> float:
@@ -106,24 +117,26 @@ class Designed:
 
     @property
     def sd(self) -> float:
-        """The standard deviation of its return."""
+        """The standard deviation of the return."""
         return self.evaluation.sd
 
     @property
     def ci95(self) -> tuple[float, float]:
-        """The 95 % interval of its mean return."""
+        """The 95 % interval of the mean return."""
         return self.evaluation.ci95
 
     @property
     def episodes(self) -> int:
-        """The episodes it was judged on."""
+        """The number of episodes of its evaluation."""
         return self.evaluation.episodes
 
 
-def load(spec: Spec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
-    """Read and check a spec; draws in constants come from the seed.
+def load(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
+    """Read and check a spec; random draws in its constants depend on the seed.
 
-    Raises SpecError with all its mistakes.
+    Raises:
+        SpecError: with all mistakes of the spec.
+        OSError: its file cannot be read.
     """
     return (
         spec
@@ -133,21 +146,29 @@ def load(spec: Spec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
 
 
 def check(spec: str | Path) -> tuple[Diagnosis, ...]:
-    """All mistakes in a spec, none if it is correct."""
+    """Return all mistakes of a spec, none if it is correct.
+
+    Raises:
+        OSError: its file cannot be read.
+    """
     try:
         return check_source(Source.read(str(spec)))
     except SpecError as error:
         return error.diagnoses
 
 
-def compile(spec: Spec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
-    """The source of the kernel that a spec compiles to: a rollout for the solver and one for evaluation."""
+def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
+    """Return the Python source of a spec's kernel: a rollout for the solver and one for evaluation.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+    """
     problem = compile_meaning(load(spec, overrides=overrides).meaning)
     return kernel_source(problem.meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
 
 
 def evaluate(
-    spec: Spec,
+    spec: AnySpec,
     *,
     episodes: int | None = None,
     seed: int = 0,
@@ -159,45 +180,69 @@ def evaluate(
     overrides: Sequence[str] = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Evaluation:
-    """Let the design of a spec live episodes, the same ones for every spec and the same seed.
+    """Run episodes of a spec's design and return their statistics.
 
-    With fill="random" the holes are filled at random, by so many agents that live so many episodes of their own. By
-    default a design lives 1000 episodes and a random agent 10. With `exact` every start is tried once.
-    `progress` is told now and then how many episodes were lived, and of how many. Raises HolesLeft for a spec
-    with holes, NotEnumerable, SpecError.
+    Args:
+        spec: A spec without holes, unless `fill` is given.
+        episodes: Number of episodes; by default 1000 for a design and 10 for each random agent. Designs that are
+            evaluated with the same seed face the same episodes.
+        seed: Seed of the episodes, and of the draws in constants.
+        fill: "random" fills the holes at random, once for each of `agents` agents; each has episodes of its own.
+        agents: Number of random agents.
+        exact: Run each possible start once, weighted by its probability, instead of random episodes.
+        lanes: Episodes that a kernel runs side by side; affects only the speed.
+        jobs: Threads to use; affects only the speed.
+        overrides: Values that replace those of the spec.
+        progress: Called from time to time with the numbers of finished and of all episodes.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        HolesLeft: the spec has holes.
+        NotEnumerable: `exact`, but the starts cannot be enumerated.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
     key = fold(seed_key(seed), EVALUATION)
-    with _reward_at_its_place(loaded):
+    with _located_reward_errors(loaded):
         if fill == "random":
-            lived = random_agents(problem, fold(key, name_word("agents")), agents)
-            streams = own_keys(key, agents, episodes or EPISODES_AT_RANDOM)
-            return evaluation(problem, _lived(problem, lived, streams, generation, progress), agents)
-        lived = agents_of([given_architecture(problem)])
+            fillings = random_agents(problem, fold(key, name_word("agents")), agents)
+            streams = own_keys(key, agents, episodes or EPISODES_OF_RANDOM_AGENT)
+            return evaluation(problem, _reported(problem, fillings, streams, generation, progress), agents)
+        agent = agents_of([given_architecture(problem)])
         if exact:
             problem, weights = enumerate_starts(problem)
             starts = np.arange(len(weights), dtype=np.uint64)
-            return weighted_evaluation(problem, _lived(problem, lived, starts, generation, progress), weights)
-        streams = keys(key, 0, episodes or EPISODES)
-        return evaluation(problem, _lived(problem, lived, streams, generation, progress), 1)
+            return weighted_evaluation(
+                problem, _reported(problem, agent, starts, generation, progress), weights
+            )
+        streams = keys(key, 0, episodes or EPISODES_OF_DESIGN)
+        return evaluation(problem, _reported(problem, agent, streams, generation, progress), 1)
 
 
-def _lived(
-    problem: Problem, agents: Agents, streams: Keys, generation: int, tell: Callable[[int, int], None] | None
+def _reported(
+    problem: Problem,
+    agents: Agents,
+    streams: Keys,
+    generation: int,
+    progress: Callable[[int, int], None] | None,
 ) -> Iterator[DetailedOutcome]:
-    """The episodes of agents, batch by batch, each of which is told of."""
+    """Run the episodes of agents and yield their outcomes batch by batch, reporting each batch to `progress`."""
     done, total = 0, len(agents) * streams.shape[-1]
     for outcome in detailed_outcomes(problem, agents, streams, generation):
         done += len(outcome.returns)
-        if tell is not None:
-            tell(done, total)
+        if progress is not None:
+            progress(done, total)
         yield outcome
 
 
-def trace(spec: Spec, *, seed: int = 0, episode: int = 0, overrides: Sequence[str] = ()) -> Trace:
-    """One of the episodes that `evaluate` lives, step by step; raises as `evaluate`."""
+def trace(spec: AnySpec, *, seed: int = 0, episode: int = 0, overrides: Sequence[str] = ()) -> Trace:
+    """Run one of the episodes of `evaluate`, by its number from 0, and return all values of each step.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+    """
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = compile_meaning(loaded.meaning, compiled=False)
     key = fold(fold(seed_key(seed), EVALUATION), word_of(episode))
@@ -206,14 +251,19 @@ def trace(spec: Spec, *, seed: int = 0, episode: int = 0, overrides: Sequence[st
     )
 
 
-def explain(spec: Spec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Explanation:
-    """What the design of a spec does, layer by layer. Raises HolesLeft for a spec with holes, SpecError."""
+def explain(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Explanation:
+    """Describe in words what the design of a spec does, layer by layer.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+    """
     meaning = load(spec, seed=seed, overrides=overrides).meaning
     return explain_architecture(meaning, given_architecture(compile_meaning(meaning)))
 
 
 def design(
-    spec: Spec,
+    spec: AnySpec,
     *,
     seed: int = 0,
     runs: int = 1,
@@ -226,48 +276,64 @@ def design(
     overdue: Callable[[Interrupted], object] | None = None,
     ready: Processes | None = None,
 ) -> Designed:
-    """Fill the holes of a spec and write what came of it into a folder.
+    """Fill the holes of a spec, and write the design and its metrics into a folder.
 
-    The same spec, seed, runs and settings give the same bytes of `architecture.yaml` and `metrics.jsonl`,
-    however often it was stopped and gone on with (`resume`), and for any number of lanes and of jobs: processes
-    that do different runs, and threads inside a run where there are more jobs than runs. Raises NothingToDesign,
-    SpecError, FolderError, WorkerLost, and Interrupted, after which `resume` goes on.
+    The same spec, overrides, seed and number of runs give the same bytes of `architecture.yaml` and `metrics.jsonl`,
+    however often the design was stopped and resumed.
 
-    An interrupt is noted at once and heeded when the episodes that are being lived are over. If that takes too
-    long, `overdue` is called, in another thread; it may end the process, since what was kept is whole.
+    Args:
+        spec: A spec with holes.
+        seed: Seed of all random numbers.
+        runs: Number of independent runs; the best of their designs is kept.
+        out: The folder to write, new or empty; by default the first free one under `runs/`.
+        resume: Continue the same design in `out`, by default in the newest folder under `runs/` that holds it.
+        lanes: Episodes that a kernel runs side by side; affects only the speed.
+        jobs: Processes for several runs, and threads within a run if there are more jobs than runs; affects only
+            the speed.
+        overrides: Values that replace those of the spec.
+        progress: Called after each generation.
+        overdue: Called in another thread if the design does not stop soon after an interrupt. An interrupt takes
+            effect after the episodes that are running. `overdue` may end the process, since all written files are
+            complete.
+        ready: Worker processes that were started before; by default as many are started as are needed.
 
-    Processes that are `ready` do some of the runs; by default as many are started as are needed.
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        NothingToDesign: the spec has no holes.
+        FolderError: the folder cannot be written, or not be resumed.
+        WorkerLost: a process that did a run was killed.
+        Interrupted: the design was interrupted; `resume` continues it.
     """
-    began = time.monotonic()
+    started = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = _with_holes(loaded, lanes, jobs)
-    who = identity(loaded.lineage.flat.source.text, tuple(overrides), seed, runs)
-    folder = _folder(loaded, who, Path(out) if out else None, resume=resume)
+    problem = _problem_with_holes(loaded, lanes, jobs)
+    run_identity = identity(loaded.lineage.flat.source.text, tuple(overrides), seed, runs)
+    folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
     command = Command(problem, settings_of(loaded.meaning), seed, runs, folder)
-    stopped = Interrupted(folder.path)
-    with _reward_at_its_place(loaded), interrupts_request_stop(overdue and (lambda: overdue(stopped))):
+    interrupted = Interrupted(folder.path)
+    with _located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
         try:
             judged = judge(
-                complete_runs(command, jobs, progress and _teller(command, progress), ready),
+                complete_runs(command, jobs, progress and _metrics_listener(command, progress), ready),
                 problem,
                 command.settings,
                 seed,
             )
         except KeyboardInterrupt:
-            raise stopped from None
+            raise interrupted from None
     folder.gather(runs)
     architecture = tidied(problem.meaning, judged.architecture)
     folder.write_architecture(designed_text(loaded, architecture))
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
-    folder.write_run_file(who, {"structure": names, "return": asdict(judged.evaluation.returns)})
-    seconds = time.monotonic() - began
+    folder.write_run_file(run_identity, {"structure": names, "return": asdict(judged.evaluation.returns)})
+    seconds = time.monotonic() - started
     return Designed(
         folder.architecture, folder.path, names, judged.evaluation, judged.lifetime, judged.random, seconds
     )
 
 
 def price(
-    spec: Spec,
+    spec: AnySpec,
     *,
     seed: int = 0,
     runs: int = 1,
@@ -276,17 +342,28 @@ def price(
     starting: float = 0.0,
     overrides: Sequence[str] = (),
 ) -> Price:
-    """What `design` would cost, from a sample of its episodes; raises as `design`, and writes nothing.
+    """Estimate the time and memory of a `design` from a sample of its episodes; write nothing.
 
-    `starting` are the seconds that a process needs before it begins with it and after it, and are added.
+    Args:
+        spec: A spec with holes.
+        seed: Seed of the sample.
+        runs: Number of runs.
+        lanes: Episodes that a kernel runs side by side.
+        jobs: Processes and threads of the design.
+        starting: Seconds that the process needs before and after the design; they are added.
+        overrides: Values that replace those of the spec.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        NothingToDesign: the spec has no holes.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = _with_holes(loaded, lanes)
-    with _reward_at_its_place(loaded):
+    problem = _problem_with_holes(loaded, lanes)
+    with _located_reward_errors(loaded):
         return price_of(problem, settings_of(loaded.meaning), seed, runs, jobs, starting)
 
 
-def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
+def _problem_with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
@@ -294,30 +371,32 @@ def _with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
     return problem
 
 
-def _folder(loaded: Loaded, who: Identity, out: Path | None, *, resume: bool) -> Folder:
+def _run_folder(loaded: Loaded, run_identity: Identity, out: Path | None, *, resume: bool) -> Folder:
     name = Path(loaded.source.file).stem
     if resume:
-        return folder_to_resume(out, name, who)
-    folder = new_folder(out, name, who.seed)
+        return folder_to_resume(out, name, run_identity)
+    folder = new_folder(out, name, run_identity.seed)
     folder.copy_spec(loaded.lineage.flat.source.text)
-    folder.write_run_file(who)
+    folder.write_run_file(run_identity)
     return folder
 
 
-def _teller(command: Command, progress: Callable[[Progress], None]) -> Callable[[dict[str, Any]], None]:
-    """What makes a generation's metrics into its progress."""
+def _metrics_listener(
+    command: Command, progress: Callable[[Progress], None]
+) -> Callable[[dict[str, Any]], None]:
+    """Return a function that reports the metrics of a generation as progress."""
 
-    def tell(line: dict[str, Any]) -> None:
-        figures = (line["mean"], line["best"], line["lifetime"])
+    def report(line: dict[str, Any]) -> None:
+        fitness = (line["mean"], line["best"], line["lifetime"])
         generations = command.settings.coevolution.generations
-        progress(Progress(line["run"], command.n_runs, line["generation"], generations, *figures))
+        progress(Progress(line["run"], command.n_runs, line["generation"], generations, *fitness))
 
-    return tell
+    return report
 
 
 @contextmanager
-def _reward_at_its_place(loaded: Loaded) -> Iterator[None]:
-    """Tells of a reward that is not finite at the term's place in the spec."""
+def _located_reward_errors(loaded: Loaded) -> Iterator[None]:
+    """Turn a RewardNotFinite into a SpecError at the place of the reward term in the spec."""
     try:
         yield
     except RewardNotFinite as error:

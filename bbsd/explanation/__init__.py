@@ -1,4 +1,4 @@
-"""An architecture in words: its rules, who controls where, and what never happens."""
+"""Architectures in words: their rules, which behavior controls where, and which rules never take effect."""
 
 from bbsd.explanation.layers import Explanation, LayerInWords, RuleInWords, explain_architecture
 from bbsd.explanation.text import explanation_text

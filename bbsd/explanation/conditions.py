@@ -1,4 +1,4 @@
-"""Conditions in words: where an input has certain cells."""
+"""Conditions on inputs in words, such as `place is lowest and tilted`."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ if TYPE_CHECKING:
 
 
 def condition_text(box: Box, inputs: Inputs) -> str:
-    """What is true in a box: `place is lowest and tilted`; '' where that is always so."""
-    said = [
-        _said(name, chosen, cells)
+    """Return the condition that holds in a box, such as `place is lowest and tilted`; '' if it always holds."""
+    parts = [
+        _input_text(name, chosen, cells)
         for (name, cells), chosen in zip(inputs.items(), box, strict=True)
         if len(chosen) < len(cells)
     ]
-    return " and ".join(said)
+    return " and ".join(parts)
 
 
-def condition_texts(where: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
-    """Conditions that together hold in all cells of `where` and in no other that is not `allowed`; both (n_cells,).
+def condition_texts(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
+    """Return conditions, one of which holds in each cell of `cells`, and none outside `cells` and `allowed`.
 
-    None where they would name more cells than anybody reads.
+    Both are (n_cells,). The result is empty if the conditions would be too long to read.
     """
-    values = np.where(where, 0, np.where(allowed, FREE, KEEP))
+    values = np.where(cells, 0, np.where(allowed, FREE, KEEP))
     boxes = cover(values, sizes_of(inputs))
     return (
         ()
@@ -46,11 +46,11 @@ def condition_texts(where: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs
 
 
 def join_words(words: Sequence[str], last: str) -> str:
-    """`a, b or c`."""
+    """Return words joined to `a, b or c`, where `last` is the word before the last one."""
     return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
-def _said(name: str, chosen: tuple[int, ...], cells: Labels) -> str:
+def _input_text(name: str, chosen: tuple[int, ...], cells: Labels) -> str:
     if cells == TRUTH_CELLS:
         return name if chosen == (1,) else f"not {name}"
     words = _words(chosen, cells)
@@ -67,7 +67,7 @@ def _said(name: str, chosen: tuple[int, ...], cells: Labels) -> str:
 
 
 def _is_most(chosen: tuple[int, ...], cells: Labels) -> bool:
-    """Whether the other cells may be said in fewer words: there are fewer, or they lie between chosen ones."""
+    """Return whether naming the other cells may be shorter: they are fewer, or lie between chosen ones."""
     return 2 * len(chosen) > len(cells) or (chosen[0] == 0 and chosen[-1] == len(cells) - 1)
 
 

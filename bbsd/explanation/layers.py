@@ -1,4 +1,4 @@
-"""What an architecture does and why: its rules in words, and what its layers never come to do."""
+"""The explanation of an architecture, layer by layer: rules in words, and what higher layers always prevent."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class RuleInWords:
-    """What is done where a condition holds ('' is otherwise), and whether layers above always prevent it."""
+    """The decision where a condition holds ('' is otherwise), and whether higher layers always prevent it."""
 
     decision: str
     where: str
@@ -35,7 +35,7 @@ class RuleInWords:
 
 @dataclass(frozen=True, slots=True)
 class CellsInWords:
-    """In how many cells of a table something is done."""
+    """The number of cells of a table with one decision."""
 
     decision: str
     cells: int
@@ -45,11 +45,11 @@ class CellsInWords:
 class LayerInWords:
     """A layer and its behavior.
 
-    Of the rules the first that holds decides; the last one's condition is always ''. There are none, but what is
-    `counted`, where they would be more than anybody reads. Where layers above always prevent the behavior, `overruled`
-    says where (apart from rules that are overruled as a whole), `effective` where it may control, each none where that
-    is too much to say, `overruled_by` who prevents it, highest first. `cells` counts the joint cells in which it
-    controls.
+    The first rule that holds decides; the last one's condition is always ''. If the rules would be too long to read,
+    there are none, and `counted` has the number of cells of each decision instead. If higher layers always prevent some
+    actions of the behavior, `overruled` says where (except for rules that are overruled as a whole), `effective` where
+    it can control, and `overruled_by` names the behaviors that prevent it, highest first; the first two are empty if
+    they would be too long to read. `cells` counts the joint cells in which it controls.
     """
 
     layer: int
@@ -65,7 +65,7 @@ class LayerInWords:
 
     @property
     def acts(self) -> bool:
-        """Whether the behavior has an action anywhere."""
+        """Whether the behavior has an action in any cell."""
         decisions = [rule.decision for rule in self.rules] + [cells.decision for cells in self.counted]
         return any(decision != NO_ACTION_TEXT for decision in decisions)
 
@@ -74,7 +74,8 @@ class LayerInWords:
 class Explanation:
     """An architecture in words, its layers from the highest down.
 
-    Where the joint input space is too large to go through, what depends on it is empty, and numbers of cells None.
+    If the joint input space is too large to enumerate, everything that depends on it is empty, and numbers of cells
+    are None.
     """
 
     name: str
@@ -87,21 +88,22 @@ class Explanation:
     actions: tuple[GlossaryEntry, ...]
 
     def to_plain(self) -> dict[str, Any]:
-        """The same as plain data that JSON can hold."""
+        """Return the explanation as plain data for JSON."""
         return asdict(self)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Control:
-    """What a behavior comes to do, for each cell of its own table, and the behaviors that prevent it."""
+    """Where a behavior has an action and where it can control, for each cell of its own table (n_cells,)."""
 
     acts: NDArray[np.bool_]
     controls: NDArray[np.bool_]
     prevented_by: tuple[int, ...]
+    """The behaviors that prevent it in some joint cells where it has an action and never controls."""
 
 
 def explain_architecture(meaning: Meaning, architecture: Architecture) -> Explanation:
-    """Explain an architecture of a spec. The counts are of joint cells, not of time spent in them."""
+    """Explain an architecture of a spec; numbers of cells count joint cells, not time spent in them."""
     space = joint_space(meaning)
     order = architecture.structure.tolist()
     control = controlling(space, architecture) if space.is_small else None
@@ -139,8 +141,8 @@ def _layer(
     return LayerInWords(
         layer=layer + 1,
         behavior=module.name,
-        excited=_said(written.excited),
-        expects=_said(written.expects),
+        excited=_one_line(written.excited),
+        expects=_one_line(written.expects),
         rules=rules,
         counted=() if rules else _counted(module, table),
         overruled=condition_texts(lost & ~whole, whole | ~control.acts, module.inputs),
@@ -150,14 +152,14 @@ def _layer(
     )
 
 
-def _said(condition: Expression | None) -> str | None:
+def _one_line(condition: Expression | None) -> str | None:
     return None if condition is None else " ".join(condition.text.split())
 
 
 def _control(
     space: JointSpace, behavior: int, table: NDArray[np.uint8], controller: NDArray[np.int64] | None
 ) -> _Control:
-    """Without `controller`, nothing is known to be overruled."""
+    """Return where a behavior acts and controls; without `controller`, it controls wherever it acts."""
     if controller is None:
         return _Control(table > 0, table > 0, ())
     acts = np.broadcast_to(decisions(space, behavior, table) > 0, space.sizes).ravel()
@@ -176,7 +178,7 @@ def _any_of(cells: NDArray[np.int64], n_cells: int) -> NDArray[np.bool_]:
 def _rules(
     module: Module, table: NDArray[np.uint8], control: _Control
 ) -> tuple[tuple[RuleInWords, ...], NDArray[np.bool_]]:
-    """A behavior's rules, if they can be read, and the cells of those that are always overruled as a whole."""
+    """Return a behavior's rules, none if they would be too long, and the cells of those overruled as a whole."""
     boxes, default = boxes_of(table, module.inputs)
     words, sizes = (NO_ACTION_TEXT, *module.actions), sizes_of(module.inputs)
     whole, rules = np.zeros(len(table), bool), []
@@ -184,10 +186,10 @@ def _rules(
         return (), whole
     cells = np.arange(len(table)).reshape(sizes)
     elsewhere = np.flatnonzero(first_match([box for box, _ in boxes], sizes) < 0)
-    held = [
+    boxes_in_words = [
         (condition_text(box, module.inputs), decision, cells[np.ix_(*box)].ravel()) for box, decision in boxes
     ]
-    for where, decision, matched in [*held, ("", default, elsewhere)]:
+    for where, decision, matched in [*boxes_in_words, ("", default, elsewhere)]:
         acting = matched[(table[matched] == decision) & control.acts[matched]]
         overruled = bool(acting.size and not control.controls[acting].any())
         whole[acting] |= overruled
@@ -196,8 +198,8 @@ def _rules(
 
 
 def _counted(module: Module, table: NDArray[np.uint8]) -> tuple[CellsInWords, ...]:
-    """How often a table does what, the most frequent first; what it never does is left out."""
+    """Return the number of cells of each decision that a table has, the most frequent first."""
     counts = np.bincount(table).tolist()
     words = (NO_ACTION_TEXT, *module.actions)
-    found = [CellsInWords(words[decision], count) for decision, count in enumerate(counts) if count]
-    return tuple(sorted(found, key=lambda each: -each.cells))
+    cells = [CellsInWords(words[decision], count) for decision, count in enumerate(counts) if count]
+    return tuple(sorted(cells, key=lambda counted: -counted.cells))

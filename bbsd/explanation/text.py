@@ -15,13 +15,15 @@ if TYPE_CHECKING:
     from bbsd.explanation.layers import Explanation, LayerInWords, RuleInWords
     from bbsd.explanation.vocabulary import GlossaryEntry
 
-WIDTH = 80
-LONGEST_NAME = 24
-MOST_PLACES = 6
+LINE_WIDTH = 80
+NAME_WIDTH = 24
+"""The widest column of names; a longer name stands on a line of its own."""
+MAX_PLACES = 6
+"""The number of conditions under which nobody controls that are listed, at most."""
 
 
 def explanation_text(explanation: Explanation) -> str:
-    """The explanation in lines of 80 columns, without color; it ends with a line break."""
+    """Return an explanation in lines of 80 columns, without color; it ends with a line break."""
     blocks = [
         _heading(explanation),
         _layers(explanation.layers),
@@ -46,7 +48,7 @@ def _heading(explanation: Explanation) -> list[str]:
 
 def _layers(layers: Sequence[LayerInWords]) -> list[str]:
     digits = len(str(len(layers)))
-    width = min(max(len(layer.behavior) for layer in layers), LONGEST_NAME)
+    width = min(max(len(layer.behavior) for layer in layers), NAME_WIDTH)
     return [
         line
         for layer in layers
@@ -57,7 +59,7 @@ def _layers(layers: Sequence[LayerInWords]) -> list[str]:
 
 
 def _sentences(layer: LayerInWords) -> list[str]:
-    """What a layer does, and what it does not come to do; each begins a line."""
+    """Return what a layer does, what higher layers prevent and what it expects; each text starts a line."""
     excited = [] if layer.excited is None else [f"when {layer.excited}:"]
     expects = [] if layer.expects is None else [f"Expects afterwards: {layer.expects}"]
     return [*excited, *_rules(layer), *_remarks(layer), *expects]
@@ -65,8 +67,8 @@ def _sentences(layer: LayerInWords) -> list[str]:
 
 def _rules(layer: LayerInWords) -> list[str]:
     if layer.counted:
-        n_cells = sum(each.cells for each in layer.counted)
-        counts = [f"{each.decision} in {each.cells:,}" for each in layer.counted]
+        n_cells = sum(counted.cells for counted in layer.counted)
+        counts = [f"{counted.decision} in {counted.cells:,}" for counted in layer.counted]
         return [f"a table of {n_cells:,} cells: {join_words(counts, 'and')}"]
     *special, last = layer.rules
     decisions = {rule.decision for rule in special}
@@ -80,8 +82,8 @@ def _rules(layer: LayerInWords) -> list[str]:
     return [lines[0], *(f"else {line}" for line in lines[1:]), f"else {last.decision}{_mark(last, layer)}"]
 
 
-def _alternatives(start: str, places: Sequence[str]) -> list[str]:
-    return [start + places[0], *(f"  or {place}" for place in places[1:])]
+def _alternatives(start: str, conditions: Sequence[str]) -> list[str]:
+    return [start + conditions[0], *(f"  or {condition}" for condition in conditions[1:])]
 
 
 def _where(rule: RuleInWords, layer: LayerInWords) -> str:
@@ -93,7 +95,7 @@ def _mark(rule: RuleInWords, layer: LayerInWords) -> str:
 
 
 def _remarks(layer: LayerInWords) -> list[str]:
-    """What the layers above always prevent, said in the shorter way."""
+    """Return what higher layers always prevent, or what is left, whichever is shorter."""
     if not layer.overruled_by:
         return []
     by = join_words(layer.overruled_by, "or")
@@ -102,14 +104,14 @@ def _remarks(layer: LayerInWords) -> list[str]:
         return [f"Never controls: {one}{by} above always does."]
     if not layer.overruled:
         return [f"Overruled by {by}."]
-    lost, left = ("; or where ".join(places) for places in (layer.overruled, layer.effective))
+    lost, left = ("; or where ".join(conditions) for conditions in (layer.overruled, layer.effective))
     if layer.effective and len(left) < len(lost):
         return [f"Controls only where {left}; otherwise overruled by {by}."]
     return [f"Overruled by {by} where {lost}."]
 
 
 def _control(explanation: Explanation) -> list[str]:
-    """Who controls in how many joint cells, and where nobody does."""
+    """Return which behavior controls in how many joint cells, and where nobody does."""
     if explanation.nobody_cells is None:
         size = f"about 10^{len(str(explanation.joint_size)) - 1}"
         text = f"The behaviors can tell {size} situations apart, too many to say who controls in which."
@@ -124,47 +126,47 @@ def _control(explanation: Explanation) -> list[str]:
     return [*_wrapped(f"{text} (This counts situations, not time.)"), *_nobody(explanation.nobody)]
 
 
-def _nobody(places: Sequence[str]) -> list[str]:
-    if not places:
+def _nobody(conditions: Sequence[str]) -> list[str]:
+    if not conditions:
         return []
-    n_more = len(places) - MOST_PLACES
-    shown = [*places[:MOST_PLACES], *([f"in {n_more} more places"] if n_more > 0 else [])]
+    n_more = len(conditions) - MAX_PLACES
+    listed = [*conditions[:MAX_PLACES], *([f"in {n_more} more places"] if n_more > 0 else [])]
     return [
         wrapped
-        for line in _alternatives("Nobody controls where ", shown)
+        for line in _alternatives("Nobody controls where ", listed)
         for wrapped in _wrapped(line, "", "    ")
     ]
 
 
 def _glossary(title: str, entries: Sequence[GlossaryEntry]) -> list[list[str]]:
-    width = min(max((len(entry.word) for entry in entries), default=0), LONGEST_NAME)
+    width = min(max((len(entry.word) for entry in entries), default=0), NAME_WIDTH)
     lines = [
         line
         for word, meaning in entries
-        for line in _hanging(f"  {word:<{width}}  ", width + 4, _parts(meaning, WIDTH - width - 4))
+        for line in _hanging(f"  {word:<{width}}  ", width + 4, _parts(meaning, LINE_WIDTH - width - 4))
     ]
     return [[title, *lines]] if lines else []
 
 
 def _parts(meaning: str, width: int) -> list[str]:
-    """A meaning on one line, or cells and states on a line each."""
+    """Return a meaning on one line if it fits, else each of its cells or states on a line."""
     return [meaning] if len(meaning) <= width else meaning.split("; ")
 
 
 def _hanging(head: str, column: int, sentences: Sequence[str]) -> list[str]:
-    """Sentences, each on lines of its own from a column on, with the head before the first or above it."""
+    """Return sentences, each on lines of its own from a column on; the head is before the first, or above it."""
     indent = " " * column
     lines = [line for sentence in sentences for line in _wrapped(sentence, indent, indent + "  ")]
     return [head + lines[0][column:], *lines[1:]] if len(head) == column else [head.rstrip(), *lines]
 
 
 def _wrapped(text: str, first: str = "", rest: str = "") -> list[str]:
-    """A line of text in as many lines as it needs, indented; blanks that begin it are kept."""
+    """Return a text in as many indented lines as it needs; its leading spaces are kept."""
     text = escape(text)
     lead = " " * (len(text) - len(text.lstrip(" ")))
     return wrap(
         text.lstrip(" "),
-        WIDTH,
+        LINE_WIDTH,
         initial_indent=first + lead,
         subsequent_indent=rest + lead,
         break_long_words=False,

@@ -1,4 +1,4 @@
-"""What the words of an explanation stand for: inputs and actions, as the designer wrote them."""
+"""The glossary of an explanation: its inputs and actions, with their definitions in the spec."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 class GlossaryEntry(NamedTuple):
-    """A word, and what it stands for."""
+    """A word, and its meaning."""
 
     word: str
     meaning: str
 
 
 def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:
-    """The inputs of some behaviors, each once, in the order in which they are met."""
+    """Return the inputs of some behaviors, each once, in order of first use."""
     return _entries(
         (behavior, name, meaning)
         for behavior in behaviors
@@ -28,7 +28,7 @@ def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]
 
 
 def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:
-    """The actions of some behaviors, each once, in the order in which they are met."""
+    """Return the actions of some behaviors, each once, in order of first use."""
     return _entries(
         (behavior, name, _mapping(sets))
         for behavior in behaviors
@@ -37,12 +37,12 @@ def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...
 
 
 def _inputs(spec: Spec, behavior: Behavior) -> dict[str, str]:
-    """What each input is: the partition, or that it is a truth of the robot's state."""
+    """Return the meaning of each input of a behavior: its partition, or the state that it reads."""
     if isinstance(behavior.inputs, dict):
         return {name: _partition(written) for name, written in behavior.inputs.items()}
     sensors, state = spec.environment.sensors, spec.environment.state
     return {
-        name: _partition(sensors[name]) if name in sensors else f"state, at first {_text(state[name])}"
+        name: _partition(sensors[name]) if name in sensors else f"state, starts as {_text(state[name])}"
         for name in behavior.inputs
     }
 
@@ -59,17 +59,17 @@ def _text(expression: Expression) -> str:
     return " ".join(expression.text.split())
 
 
-def _entries(found: Iterable[tuple[str, str, str]]) -> tuple[GlossaryEntry, ...]:
-    """The words with their meanings; a word that has several says whose it is."""
+def _entries(uses: Iterable[tuple[str, str, str]]) -> tuple[GlossaryEntry, ...]:
+    """Return words with their meanings, from uses (behavior, word, meaning); one with several names its behaviors."""
     by_word: dict[str, dict[str, list[str]]] = {}
-    for behavior, word, meaning in found:
+    for behavior, word, meaning in uses:
         by_word.setdefault(word, {}).setdefault(meaning, []).append(behavior)
     return tuple(
-        GlossaryEntry(_whose(word, behaviors, meanings), meaning)
+        GlossaryEntry(_word_with_owners(word, behaviors, meanings), meaning)
         for word, meanings in by_word.items()
         for meaning, behaviors in meanings.items()
     )
 
 
-def _whose(word: str, behaviors: Sequence[str], meanings: dict[str, list[str]]) -> str:
+def _word_with_owners(word: str, behaviors: Sequence[str], meanings: dict[str, list[str]]) -> str:
     return word if len(meanings) == 1 else f"{word} of {', '.join(behaviors)}"

@@ -37,4 +37,4 @@ def test_actions_say_what_they_set():
 def test_a_truth_of_the_state_is_told_from_a_sensor():
     text = small("  one: {inputs: [lit, seen], actions: {go: {x: 1}}}\n")
     spec = spec_of(text.replace("state: {x: 0}", "state: {x: 0, lit: x > 3}, sensors: {seen: x > 1}"))
-    assert inputs_of(spec, ["one"]) == (("lit", "state, at first x > 3"), ("seen", "x > 1"))
+    assert inputs_of(spec, ["one"]) == (("lit", "state, starts as x > 3"), ("seen", "x > 1"))
