@@ -74,7 +74,7 @@ EXPRESSION_KINDS = (
     ),
     DiagnosisKind(
         code="BB057",
-        title="an index of nothing",
+        title="an index that does not fit",
         explanation=(
             "Lists, tables and what each robot has are indexed by [k], counted from 0. An index that is "
             "computed is clamped to the range, one that is written must lie in it."
@@ -84,7 +84,7 @@ EXPRESSION_KINDS = (
     ),
     DiagnosisKind(
         code="BB058",
-        title="a draw where nothing is drawn",
+        title="a draw where none is allowed",
         explanation=(
             "Values can be drawn in constants, starts, actions, dynamics and sensors. Elsewhere, as in "
             "the reward, in conditions and in definitions, each use would draw anew; draw it once as "
@@ -125,7 +125,7 @@ EXPRESSION_KINDS = (
     ),
     DiagnosisKind(
         code="BB062",
-        title="a generator that cannot be gone through",
+        title="a generator that does not fit",
         explanation=(
             "e for v in S is the only argument of an aggregate. S is team, others, range(n), a list, or a "
             "table, whose rows can be taken apart: for x, y in S."
@@ -155,7 +155,7 @@ EXPRESSION_KINDS = (
     ),
     DiagnosisKind(
         code="BB065",
-        title="before(...) where nothing was before",
+        title="before(...) where it has no meaning",
         explanation=(
             "before(e) is e as it was when the behaviors decided. It has a meaning in dynamics, sensors, "
             "the reward, ends, and what a behavior expects, not where the decision is made."

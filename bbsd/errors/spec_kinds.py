@@ -127,7 +127,7 @@ SPEC_KINDS = (
     ),
     DiagnosisKind(
         code="BB031",
-        title="cut or values of nothing that can be cut so",
+        title="cut(...) or values(...) with arguments that do not fit",
         explanation=(
             "cut(e, c1, c2, ...) takes a number and growing bounds. values(e, first, last) takes a whole "
             "number and the first and last of at least two whole numbers."
@@ -259,7 +259,7 @@ SPEC_KINDS = (
     ),
     DiagnosisKind(
         code="BB042",
-        title="a structure that cannot be",
+        title="an impossible structure",
         explanation=(
             "A structure lists behaviors from the highest layer down, each at most once, or open for a "
             "layer that a behavior not listed will take."
