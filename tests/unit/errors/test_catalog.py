@@ -25,7 +25,7 @@ def test_a_kind_is_a_mistake_unless_it_says_otherwise() -> None:
     assert DiagnosisKind("BB100", "", "", "", "").severity is Severity.MISTAKE
 
 
-def test_every_kind_says_all_there_is_to_say() -> None:
+def test_every_kind_has_all_its_texts() -> None:
     for kind in KINDS.values():
         assert all((kind.title, kind.explanation, kind.example, kind.mend)), kind.code
 

@@ -18,7 +18,7 @@ def test_an_error_lists_all_its_diagnoses() -> None:
     )
 
 
-def test_an_error_survives_the_way_between_processes() -> None:
+def test_an_error_can_be_sent_between_processes() -> None:
     error = pickle.loads(pickle.dumps(SpecError(MISTAKES, Source("spec.yaml", "text"))))
     assert error.diagnoses == MISTAKES
     assert error.source.line(1) == "text"

@@ -96,7 +96,7 @@ def test_json_has_the_place_code_message_and_advice() -> None:
 
 @pytest.fixture
 def warning(monkeypatch: pytest.MonkeyPatch) -> Diagnosis:
-    """A diagnosis of a made-up kind, which the catalog does not have."""
+    """Return a diagnosis of a made-up kind, which the catalog does not have."""
     kind = DiagnosisKind("BB101", "odd", "why", "example", "mend", Severity.WARNING)
     monkeypatch.setitem(KINDS, kind.code, kind)
     return Diagnosis(kind.code, "this is odd", Place("spec.yaml", 1, 1, 5))

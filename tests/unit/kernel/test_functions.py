@@ -66,7 +66,7 @@ def multiples_of_half_pi(generator: random.Random) -> float:
 
 
 def ulps(got: float, exact: mpmath.mpf) -> float:
-    """The error in units of the last place of the exact value."""
+    """Return the error in units of the last place of the exact value."""
     _, exponent = mpmath.frexp(exact)
     return float(abs(mpmath.mpf(got) - exact) / mpmath.mpf(2) ** max(int(exponent) - 53, -1074))
 
@@ -364,7 +364,7 @@ def own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 def same_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
-    """Whether two arrays hold the same bits, any NaN being like any other."""
+    """Say whether two arrays hold the same bits, all NaN being equal."""
     nan = np.isnan(a)
     return bool(
         np.array_equal(nan, np.isnan(b)) and np.array_equal(a[~nan].view(np.uint64), b[~nan].view(np.uint64))

@@ -32,7 +32,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def run(program: str, folder: Path) -> list[str]:
-    """What a program prints in a process of its own, started in that folder."""
+    """Return the words that a program prints in a process of its own, started in a folder."""
     environment = {
         **os.environ,
         "PYTHONPATH": os.pathsep.join([str(ROOT), str(folder)]),

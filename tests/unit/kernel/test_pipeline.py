@@ -13,7 +13,7 @@ def test_the_passes_are_numba_s_own_in_their_order():
     assert len(every) > len(PASSES)
 
 
-def test_a_kernel_goes_through_them_alone(tmp_path, monkeypatch):
+def test_a_kernel_goes_through_these_passes_alone(tmp_path, monkeypatch):
     monkeypatch.setenv("BBSD_CACHE_DIR", str(tmp_path))
 
     def total(n):

@@ -47,7 +47,7 @@ def draw_normal(keys, floats, step):
 
 
 def splitmix64(seed: int) -> Iterator[int]:
-    """The generator as its authors published it (Steele, Lea and Flood 2014), in modular arithmetic."""
+    """Yield the numbers of the generator as published (Steele, Lea and Flood 2014), in modular arithmetic."""
     state = seed
     while True:
         state = (state + 11400714819323198485) % 2**64

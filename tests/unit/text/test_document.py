@@ -77,7 +77,7 @@ def test_segments_that_name_nothing_are_skipped(document: Document) -> None:
     assert shown(document.place(path)) == (14, "cap")
 
 
-def test_what_is_missing_is_shown_at_the_nearest_key(document: Document) -> None:
+def test_a_missing_value_is_shown_at_the_nearest_key(document: Document) -> None:
     assert shown(document.place(("environment", "sensors", "nothing"))) == (4, "sensors")
     assert shown(document.place(("environment", "sensors", "tilt", "deeper", 3))) == (5, "tilt")
     assert shown(document.place(("behaviors", "push", "rules", 7))) == (12, "rules")
@@ -134,5 +134,5 @@ def test_a_text_that_could_not_be_read_has_one_place() -> None:
         (("bbsd", "below"), False),
     ],
 )
-def test_a_document_knows_what_it_holds(document: Document, path: DataPath, holds: bool) -> None:
+def test_a_document_says_whether_it_has_a_path(document: Document, path: DataPath, holds: bool) -> None:
     assert document.holds(path) is holds

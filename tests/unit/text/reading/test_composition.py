@@ -109,7 +109,7 @@ def test_a_long_text_is_refused() -> None:
     assert codes("table: " + "x" * 900_000) == []
 
 
-def test_a_long_table_is_no_way_around_that() -> None:
+def test_a_long_table_cannot_be_repeated_as_another_text() -> None:
     assert codes("table: &long " + "x" * 10_001 + "\na: *long\n") == ["BB013"]
 
 
@@ -128,5 +128,5 @@ def test_mistakes_before_a_syntax_error_are_kept_in_order() -> None:
     assert codes("a: {b: 1, b: 2}\nb: !x 3\nc: {d\n") == ["BB006", "BB009", "BB004"]
 
 
-def test_a_syntax_error_speaks_for_the_alias_it_stops_at() -> None:
+def test_a_syntax_error_replaces_a_mistake_at_the_same_place() -> None:
     assert codes("a: *b + 1\nc: 2\n") == ["BB004"]

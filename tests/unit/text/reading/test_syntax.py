@@ -27,7 +27,7 @@ def diagnosis(text: str) -> Diagnosis:
     ],
 )
 @pytest.mark.parametrize("frame", ["x: {}", "x: {}\ny: 2\n", "x:\n  - y: {}   # why\n", "x:\n  - {}\n"])
-def test_an_expression_that_yaml_cannot_begin_with_is_to_be_quoted(value: str, frame: str) -> None:
+def test_an_expression_that_yaml_cannot_begin_with_needs_quotes(value: str, frame: str) -> None:
     text = frame.replace("{}", value)
     found = diagnosis(text)
     assert found.code == "BB004"
@@ -77,7 +77,7 @@ def test_a_long_value_is_not_repeated_in_the_advice() -> None:
         ("%FOO\n---\nx: 1", 1, 1, "a line cannot begin with %"),
     ],
 )
-def test_a_syntax_error_is_told_in_plain_words_at_its_place(
+def test_a_syntax_error_is_explained_in_plain_words_at_its_place(
     text: str, line: int, column: int, message: str
 ) -> None:
     found = diagnosis(text)
@@ -90,7 +90,7 @@ def test_a_syntax_error_is_told_in_plain_words_at_its_place(
 
 
 @pytest.mark.parametrize("value", ['"a\\qb"', '"\\u12"', '"\\x"'])
-def test_an_unknown_escape_is_to_be_written_in_single_quotes(value: str) -> None:
+def test_an_unknown_escape_needs_single_quotes(value: str) -> None:
     found = diagnosis(f"x: {value}")
     assert found.code == "BB004"
     assert "single quotes" in found.advice

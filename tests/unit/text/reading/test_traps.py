@@ -3,9 +3,9 @@ import pytest
 from bbsd.text import Data, Source, read
 
 
-def found(text: str) -> tuple[dict[str, Data], list[str]]:
+def data_and_codes(text: str) -> tuple[dict[str, Data], list[str]]:
     document = read(Source("spec.yaml", text))
-    return document.data, [each.code for each in document.diagnoses]
+    return document.data, [diagnosis.code for diagnosis in document.diagnoses]
 
 
 @pytest.mark.parametrize(
@@ -22,11 +22,11 @@ def found(text: str) -> tuple[dict[str, Data], list[str]]:
     ],
 )
 def test_a_comma_between_parentheses_is_one_mistake_and_read_as_meant(text: str, meant: Data) -> None:
-    assert found(f"key: {text}") == ({"key": meant}, ["BB016"])
+    assert data_and_codes(f"key: {text}") == ({"key": meant}, ["BB016"])
 
 
 def test_every_value_that_commas_cut_is_a_mistake() -> None:
-    data, codes = found("{f(x, y): min(x, y), b: max(a, b)}")
+    data, codes = data_and_codes("{f(x, y): min(x, y), b: max(a, b)}")
     assert data == {"f(x, y)": "min(x, y)", "b": "max(a, b)"}
     assert codes == ["BB016"] * 3
 
@@ -50,7 +50,7 @@ def test_the_mistake_is_shown_at_the_whole_value() -> None:
     ],
 )
 def test_other_commas_are_left_alone(text: str) -> None:
-    assert found(text)[1] == []
+    assert data_and_codes(text)[1] == []
 
 
 @pytest.mark.parametrize(
@@ -73,9 +73,9 @@ def test_a_colon_without_a_blank_is_shown(text: str, line: int, column: int) -> 
     "text", ["summary: see:this", "summary:\n  http://example.org", "a: '\n  b:c'", "at: 12:30"]
 )
 def test_colons_in_other_texts_are_left_alone(text: str) -> None:
-    assert found(text)[1] == []
+    assert data_and_codes(text)[1] == []
 
 
 @pytest.mark.parametrize("text", ["a: >3\nb: 1\n", "a: |\nb: 1\n", "a: >\n\n"])
 def test_a_block_of_text_without_text_is_a_mistake(text: str) -> None:
-    assert found(text)[1] == ["BB018"]
+    assert data_and_codes(text)[1] == ["BB018"]

@@ -1,4 +1,4 @@
-"""The house's style changes blanks and quotes, and nothing that a file says."""
+"""The house style changes blanks and quotes, and not the content of a file."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ def styled(text):
     return in_house_style(document(text))
 
 
-def said(text):
-    found = document(text)
-    assert not found.diagnoses, text
-    comments = [text[start:end].rstrip() for start, end in comments_in(text, found.root)]
-    return json.dumps(found.data), comments
+def content(text):
+    read_document = document(text)
+    assert not read_document.diagnoses, text
+    comments = [text[start:end].rstrip() for start, end in comments_in(text, read_document.root)]
+    return json.dumps(read_document.data), comments
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.name)
@@ -40,10 +40,10 @@ def test_shipped_specs_are_in_the_style(path):
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_it_keeps_what_a_file_says_and_has_nothing_more_to_do(path):
+def test_the_content_is_kept_and_a_second_run_changes_nothing(path):
     text = path.read_text(encoding="utf-8")
     once = styled(text)
-    assert said(once) == said(text)
+    assert content(once) == content(text)
     assert styled(once) == once
 
 
@@ -81,7 +81,7 @@ def test_a_file_is_put_in_the_style(text, expected):
 
 @pytest.mark.parametrize("text", ["? a\n:   1\n", "a: |+\n  x\n\n\n", 'a: "x\\\n   y"\n', "a: [b: 1]\n"])
 def test_what_is_written_unusually_is_left_alone(text):
-    assert said(styled(text)) == said(text)
+    assert content(styled(text)) == content(text)
 
 
 def test_a_file_with_mistakes_is_refused():
@@ -109,7 +109,7 @@ def files(draw):
 
 
 def _block(draw, data, column):
-    """The lines of a mapping or list that stands in a column."""
+    """Yield the lines of a mapping or list whose keys or dashes begin in a column."""
     for each in data:
         yield from _aside(draw, column)
         head = "-" if isinstance(data, list) else f"{each}{draw(st.sampled_from(['', ' ']))}:"
@@ -123,7 +123,7 @@ def _block(draw, data, column):
 
 
 def _aside(draw, column):
-    """Blank lines and comments, in the column of what follows or in another."""
+    """Yield blank lines and comments, in the column of what follows or in another."""
     for each in draw(st.lists(st.sampled_from(["", "#", "# why", "blank"]), max_size=2)):
         if each.startswith("#"):
             yield f"{' ' * draw(st.sampled_from([column, column, 0, 3]))}{each}\n"
@@ -143,8 +143,8 @@ def _flow(draw, value):
 
 @settings(max_examples=100)
 @given(files())
-def test_any_file_keeps_what_it_says_and_is_done_at_once(text):
+def test_any_file_keeps_its_content_and_a_second_run_changes_nothing(text):
     once = styled(text)
-    assert said(once) == said(text)
+    assert content(once) == content(text)
     assert styled(once) == once
     assert document(once).data == document(text).data

@@ -56,7 +56,7 @@ def test_rules_are_added_below_what_a_behavior_has() -> None:
     assert patched({("behaviors", "push", "rules"): RULES}) == SPEC.replace(before, before + rules)
 
 
-def test_a_structure_is_added_where_it_is_wanted() -> None:
+def test_a_structure_is_added_after_a_given_key() -> None:
     before = "  # the end of behaviors\n"
     added = "\nstructure: [stop, push]\n"
     text = patched({("structure",): ["stop", "push"]}, after="behaviors")
@@ -139,7 +139,7 @@ def test_several_changes_are_made_in_order() -> None:
     assert text == SPEC.replace("name: lifting ", "name: x ") + "\ndesign: {sharing: value}\n"
 
 
-def test_what_is_on_the_way_to_a_new_value_is_added() -> None:
+def test_missing_mappings_on_a_path_are_added() -> None:
     assert patched({("design", "learning", "rate"): 0.1}).endswith("\ndesign:\n  learning:\n    rate: 0.1\n")
     assert patched({("a", "b"): 1}, text="a:   # nothing yet\n") == "a:   # nothing yet\n  b: 1\n"
 
@@ -213,7 +213,7 @@ data = st.recursive(
 
 
 def commented(text: str, numbers: list[int]) -> str:
-    """Put comments above some lines and behind others, as far as the text still says the same."""
+    """Add comments above some lines and at the end of others, where the data stay the same."""
     lines = text.split("\n")
     for count, number in enumerate(numbers):
         index = number % len(lines)
