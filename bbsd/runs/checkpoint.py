@@ -14,6 +14,7 @@ from bbsd.architecture import Architecture
 from bbsd.solver.champions import Champions
 from bbsd.solver.culture import Culture
 from bbsd.solver.generation import State
+from bbsd.version import REVISION
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,7 +33,7 @@ class RunState:
     answer: Architecture | None = None
 
 
-class CheckpointError(ValueError):
+class CheckpointError(Exception):
     """A checkpoint that cannot be resumed; the message says why."""
 
 
@@ -52,21 +53,26 @@ def packed(reached: RunState) -> bytes:
 
 
 def load(path: Path) -> RunState:
-    """Read a run's state from a file. Raises CheckpointError for a damaged file."""
+    """Read a run's state from a file. Raises CheckpointError for a file that is damaged or of another revision."""
     content = path.read_bytes()
     digest, content = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
     if sha256(content).digest() != digest:
         raise CheckpointError(f"{path} is damaged: its digest does not match")
     try:
-        with np.load(BytesIO(content), allow_pickle=False) as arrays:
-            return _run_state(dict(arrays))
+        with np.load(BytesIO(content), allow_pickle=False) as file:
+            arrays = dict(file)
+        revision = int(arrays["revision"])
+        if revision == REVISION:
+            return _run_state(arrays)
     except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError) as error:
         raise CheckpointError(f"{path} cannot be read: {error}") from None
+    raise CheckpointError(f"{path} was written by revision {revision} of bbsd; this is revision {REVISION}")
 
 
 def _arrays(reached: RunState) -> dict[str, NDArray[np.generic]]:
     state = reached.state
     return {
+        "revision": np.array(REVISION),
         "run": np.array(reached.run),
         "generation": np.array(state.generation),
         **{f"pool_{index}": pool for index, pool in enumerate(state.pools)},

@@ -1,4 +1,4 @@
-"""A design's folder: anything can open it, rsync can copy it, and runs that were killed go on from it."""
+"""A design's folder: plain files that anything can open, and from which a run that was stopped is resumed."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bbsd.runs.records import FolderError, Records
-from bbsd.version import __version__
+from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 FORMAT = 2
+"""The format of `run.json`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """What a run is of: only the same can be gone on with."""
+    """Identifies a design; resuming requires an equal one, by the same version and revision of bbsd."""
 
     spec_digest: str
     overrides: tuple[str, ...]
@@ -29,9 +30,12 @@ class Identity:
     runs: int
 
     def plain(self) -> dict[str, Any]:
-        """As `run.json` holds it."""
+        """Return the identity as `run.json` holds it."""
+        return {"bbsd": __version__, "revision": REVISION, **self.command()}
+
+    def command(self) -> dict[str, Any]:
+        """Return the part of the identity that the user chose."""
         return {
-            "bbsd": __version__,
             "spec_sha256": self.spec_digest,
             "set": list(self.overrides),
             "seed": self.seed,
@@ -40,7 +44,7 @@ class Identity:
 
 
 def identity(spec_text: str, overrides: tuple[str, ...], seed: int, runs: int) -> Identity:
-    """The identity of a command."""
+    """Return the identity of a design."""
     return Identity(sha256(spec_text.encode()).hexdigest(), overrides, seed, runs)
 
 
@@ -52,45 +56,45 @@ class Folder:
 
     @property
     def architecture(self) -> Path:
-        """The designed spec."""
+        """The file of the designed spec."""
         return self.path / "architecture.yaml"
 
     @property
     def metrics(self) -> Path:
-        """One line for each generation."""
+        """The file with one line for each generation."""
         return self.path / "metrics.jsonl"
 
     @property
     def run_file(self) -> Path:
-        """What was run, with what, and what came of it."""
+        """The file that says what was run, with what, and with which result."""
         return self.path / "run.json"
 
     def records(self, run: int, n_runs: int) -> Records:
-        """What is kept of a run, which counts from 0: in the folder itself where it is the only one."""
+        """Return the records of a run, which counts from 0: in the folder itself where it is the only one."""
         return Records(self.path if n_runs == 1 else self.path / f"run-{run + 1}")
 
     def gather(self, n_runs: int) -> None:
         """Write the metrics of all runs, in their order, into one file."""
         if n_runs > 1:
-            each = (self.records(run, n_runs).metrics.read_bytes() for run in range(n_runs))
-            self.metrics.write_bytes(b"".join(each))
+            metrics = (self.records(run, n_runs).metrics.read_bytes() for run in range(n_runs))
+            self.metrics.write_bytes(b"".join(metrics))
 
     def copy_spec(self, text: str) -> None:
-        """Keep the spec as it was when the run began."""
+        """Keep the spec as it is when the design begins."""
         (self.path / "spec.yaml").write_text(text, encoding="utf-8")
 
     def write_architecture(self, text: str) -> None:
-        """Write the designed spec; one that is there already may have been edited since and is left alone."""
+        """Write the designed spec, unless there is one already: it may have been edited since."""
         if not self.architecture.exists():
             self.architecture.write_text(text, encoding="utf-8")
 
     def lines(self) -> list[dict[str, Any]]:
-        """The metrics of all generations. Raises FolderError for a file that is damaged."""
+        """Return the metrics of all generations. Raises FolderError for a damaged file."""
         return Records(self.path).lines()
 
     def write_run_file(self, who: Identity, result: dict[str, Any] | None = None) -> None:
-        """Write `run.json`; the result is added when there is one."""
-        note = {
+        """Write `run.json`, with the result once there is one."""
+        content = {
             "format": FORMAT,
             **who.plain(),
             "versions": {name: version(name) for name in ("numba", "numpy", "llvmlite")},
@@ -101,33 +105,45 @@ class Folder:
             },
             **({} if result is None else {"result": result}),
         }
-        self.run_file.write_text(json.dumps(note, indent=2) + "\n", encoding="utf-8")
+        self.run_file.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
 
-    def is_of(self, who: Identity) -> bool:
-        """Whether the folder holds a run of exactly this."""
+    def read_run_file(self) -> dict[str, Any]:
+        """Return the content of `run.json`, empty where there is none or it is damaged."""
         try:
-            note = json.loads(self.run_file.read_text(encoding="utf-8"))
+            content = json.loads(self.run_file.read_text(encoding="utf-8"))
         except (OSError, ValueError):
-            return False
-        return isinstance(note, dict) and all(note.get(key) == value for key, value in who.plain().items())
+            return {}
+        return content if isinstance(content, dict) else {}
+
+    def holds(self, who: Identity) -> bool:
+        """Return whether this is the folder of that design, by this version and revision."""
+        return _agrees(self.read_run_file(), who.plain())
+
+    def holds_other_version(self, who: Identity) -> bool:
+        """Return whether this is the folder of the same spec, seed, runs and settings by another version."""
+        return _agrees(self.read_run_file(), who.command()) and not self.holds(who)
+
+
+def _agrees(content: Mapping[str, Any], expected: Mapping[str, Any]) -> bool:
+    return all(content.get(key) == value for key, value in expected.items())
 
 
 def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
-    """A new folder: the one wanted, which must be empty or not there, or the first free one under `runs/`."""
+    """Make a new folder: the one wanted, which must be empty or not there, or the first free one under `runs/`."""
     try:
         if wanted is None:
-            return Folder(next(path for path in _defaults(name, seed) if _made(path)))
-        if not _made(wanted) and (not wanted.is_dir() or any(wanted.iterdir())):
+            return Folder(next(path for path in _defaults(name, seed) if _make(path)))
+        if not _make(wanted) and (not wanted.is_dir() or any(wanted.iterdir())):
             raise FolderError(
-                f"{wanted} is not empty; nothing is overwritten: choose another --out, or go on with --resume"
+                f"{wanted} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
             )
     except OSError as error:
         raise FolderError(f"{error.filename} cannot be made: {error.strerror}") from None
     return Folder(wanted)
 
 
-def _made(path: Path) -> bool:
-    """Make a folder; False if it was there, maybe only just made by another run."""
+def _make(path: Path) -> bool:
+    """Make a folder and return True, or False if it is there, maybe made by another run just now."""
     try:
         path.mkdir(parents=True)
     except FileExistsError:
@@ -136,26 +152,45 @@ def _made(path: Path) -> bool:
 
 
 def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
-    """The folder to go on in: the one wanted, or the newest default one that is of the same."""
+    """Return the folder of a design: the one wanted, or the newest one under `runs/`.
+
+    Raises FolderError if no folder holds this design, or only by another version or revision of bbsd.
+    """
+    folders = [Folder(wanted)] if wanted is not None else [*_default_folders(name, who.seed)]
+    for folder in reversed(folders):
+        if folder.holds(who):
+            return folder
+    for folder in reversed(folders):
+        if folder.holds_other_version(who):
+            raise FolderError(_other_version(folder))
     if wanted is not None:
-        if not Folder(wanted).is_of(who):
-            raise FolderError(
-                f"{wanted} holds no run of this spec with this seed, these runs and these settings"
-            )
-        return Folder(wanted)
-    found = None
-    for path in _defaults(name, who.seed):
+        raise FolderError(f"{wanted} holds no run of this spec with this seed, these runs and these settings")
+    raise FolderError(
+        "there is no run of this spec with this seed under runs/ that could be resumed; name its folder with --out"
+    )
+
+
+def _other_version(folder: Folder) -> str:
+    content = folder.read_run_file()
+    theirs = (
+        f"bbsd {content.get('bbsd', 'of unknown version')}, revision {content.get('revision', 'unknown')}"
+    )
+    return (
+        f"{folder.path} is a run of the same spec and seed by {theirs}; this is bbsd {__version__}, "
+        f"revision {REVISION}, which may give other results: resume it with the former, or start again without --resume"
+    )
+
+
+def _default_folders(name: str, seed: int) -> Iterator[Folder]:
+    """Yield the folders under `runs/` that are there, oldest first."""
+    for path in _defaults(name, seed):
         if not path.exists():
-            break
-        found = Folder(path) if Folder(path).is_of(who) else found
-    if found is None:
-        raise FolderError(
-            "there is no run of this spec with this seed under runs/ to go on with; name it with --out"
-        )
-    return found
+            return
+        yield Folder(path)
 
 
 def _defaults(name: str, seed: int) -> Iterator[Path]:
+    """Yield the folders under `runs/` that a design may use, one after another without end."""
     base = Path("runs") / f"{name}-seed{seed}"
     yield base
     number = 2

@@ -9,6 +9,7 @@ from bbsd.architecture import HolesLeft
 from bbsd.errors import SpecError
 from bbsd.evaluation import NotEnumerable
 from bbsd.runs.folder import FolderError
+from bbsd.version import REVISION
 
 SPEC = Path(__file__).parents[1] / "end_to_end" / "specs" / "thermostat.yaml"
 SEED = 2
@@ -141,6 +142,22 @@ def test_a_design_is_gone_on_with_only_where_it_is_the_same(designed):
     with pytest.raises(FolderError, match="nothing is overwritten"):
         bbsd.api.design(SPEC, seed=SEED, runs=2, out=found.folder)
     assert files(found.folder) == before
+
+
+def test_a_folder_of_another_revision_is_not_resumed(tmp_path):
+    def stop(_progress):
+        raise KeyboardInterrupt
+
+    with pytest.raises(bbsd.api.Interrupted):
+        bbsd.api.design(SPEC, out=tmp_path / "run", progress=stop)
+    path = tmp_path / "run" / "run.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"revision": REVISION + 1}))
+    before = path.read_bytes(), (tmp_path / "run" / "checkpoint.npz").read_bytes()
+    with pytest.raises(
+        FolderError, match=rf"by bbsd {bbsd.__version__}, revision {REVISION + 1}; this is bbsd"
+    ):
+        bbsd.api.design(SPEC, out=tmp_path / "run", resume=True)
+    assert before == (path.read_bytes(), (tmp_path / "run" / "checkpoint.npz").read_bytes())
 
 
 def test_a_spec_with_holes_is_not_evaluated_but_by_random_agents():

@@ -9,6 +9,7 @@ from bbsd.architecture import Architecture
 from bbsd.runs import checkpoint
 from bbsd.runs.checkpoint import CheckpointError, RunState
 from bbsd.solver.generation import initial_state, next_generation
+from bbsd.version import REVISION
 from tests.unit.solver.problems import guess
 
 
@@ -101,3 +102,13 @@ def test_what_is_no_state_is_refused(tmp_path, content):
     path.write_bytes(sha256(content).digest() + content)
     with pytest.raises(CheckpointError, match="cannot be read"):
         checkpoint.load(path)
+
+
+def test_a_checkpoint_of_another_revision_is_not_resumed(tmp_path, monkeypatch):
+    monkeypatch.setattr(checkpoint, "REVISION", REVISION + 1)
+    checkpoint.save(tmp_path / "c", progress(1))
+    monkeypatch.undo()
+    with pytest.raises(
+        CheckpointError, match=rf"by revision {REVISION + 1} of bbsd; this is revision {REVISION}"
+    ):
+        checkpoint.load(tmp_path / "c")

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from bbsd.runs.folder import Folder, FolderError, folder_to_resume, identity, new_folder
+from bbsd.version import REVISION, __version__
 
 WHO = identity("a spec", ("design.sharing=value",), 3, 2)
 
@@ -38,6 +39,7 @@ def test_a_note_tells_what_was_run_and_with_what(folder):
     folder.write_run_file(WHO)
     note = json.loads(folder.run_file.read_text())
     assert (note["format"], note["seed"], note["runs"], note["set"]) == (2, 3, 2, ["design.sharing=value"])
+    assert (note["bbsd"], note["revision"]) == (__version__, REVISION)
     assert len(note["spec_sha256"]) == 64
     assert "numba" in note["versions"]
     assert "result" not in note
@@ -47,20 +49,20 @@ def test_a_note_tells_what_was_run_and_with_what(folder):
 
 def test_only_the_same_is_gone_on_with(folder):
     folder.write_run_file(WHO)
-    assert folder.is_of(WHO)
+    assert folder.holds(WHO)
     others = [
         identity("another spec", WHO.overrides, 3, 2),
         identity("a spec", (), 3, 2),
         identity("a spec", WHO.overrides, 4, 2),
         identity("a spec", WHO.overrides, 3, 1),
     ]
-    assert not any(folder.is_of(other) for other in others)
+    assert not any(folder.holds(other) for other in others)
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", "no note"])
 def test_what_is_no_note_is_of_nothing(folder, text):
     folder.run_file.write_text(text)
-    assert not folder.is_of(WHO)
+    assert not folder.holds(WHO)
 
 
 def test_new_folders_are_the_first_free_ones(tmp_path, monkeypatch):
@@ -121,3 +123,45 @@ def test_a_wanted_folder_must_be_of_the_same(tmp_path):
         folder_to_resume(tmp_path, "lift", WHO)
     Folder(tmp_path).write_run_file(WHO)
     assert folder_to_resume(tmp_path, "lift", WHO).path == tmp_path
+
+
+def rewrite(folder, **changed):
+    """Write other things into a folder's `run.json`; None removes them."""
+    content = json.loads(folder.run_file.read_text()) | changed
+    folder.run_file.write_text(
+        json.dumps({key: value for key, value in content.items() if value is not None})
+    )
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"revision": REVISION - 1}, f"by bbsd {__version__}, revision {REVISION - 1}; this is"),
+        ({"revision": REVISION + 1}, f"by bbsd {__version__}, revision {REVISION + 1}; this is"),
+        ({"revision": None}, f"by bbsd {__version__}, revision unknown; this is"),
+        ({"bbsd": "0.0.7"}, f"by bbsd 0.0.7, revision {REVISION}; this is"),
+    ],
+    ids=str,
+)
+def test_what_another_revision_wrote_is_not_resumed(folder, changed, told):
+    folder.write_run_file(WHO)
+    rewrite(folder, **changed)
+    assert not folder.holds(WHO)
+    with pytest.raises(FolderError) as error:
+        folder_to_resume(folder.path, "lift", WHO)
+    assert told in str(error.value)
+    assert f"this is bbsd {__version__}, revision {REVISION}" in str(error.value)
+    with pytest.raises(FolderError, match="holds no run of this spec"):  # another seed comes first
+        folder_to_resume(folder.path, "lift", identity("a spec", WHO.overrides, 4, 2))
+
+
+def test_default_folders_of_another_revision_are_passed_over(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    folders = [new_folder(None, "lift", 3) for _ in range(2)]
+    for folder in folders:
+        folder.write_run_file(WHO)
+    rewrite(folders[1], revision=REVISION + 1)
+    assert folder_to_resume(None, "lift", WHO) == folders[0]
+    rewrite(folders[0], revision=REVISION + 1)
+    with pytest.raises(FolderError, match=r"runs/lift-seed3-2 is a run of the same spec and seed by"):
+        folder_to_resume(None, "lift", WHO)
