@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import bbsd
+from bbsd.expression.node_data import Slot
 from experiments.designs import SEEDS, Floats, spec_path, verdict
 
 if TYPE_CHECKING:
@@ -85,10 +86,10 @@ def lift(seed: int, folder: Path) -> Lift:
     designed = bbsd.design(spec_path("object_lifting"), seed=seed, out=folder / f"lift-{seed}")
     episode = bbsd.trace(designed.architecture, overrides=[HIGHER])
     speeds, heights = (
-        np.array([episode.values[name, robot, ()] for robot in range(3)], dtype=float)
+        np.array([episode.values[Slot(name, robot)] for robot in range(3)], dtype=float)
         for name in ("speed", "height")
     )
-    tilted = np.array(episode.values["tilted", 0, ()], dtype=float) > 0
+    tilted = np.array(episode.values[Slot("tilted", 0)], dtype=float) > 0
     hurrying = np.array([episode.controlling[robot] for robot in (1, 2)]) == "hurry_up"
     stands = bool(np.all(np.abs(heights[:, -1] - 3) < 0.2) and np.all(speeds[:, -1] == 0))
     lower = float(speeds[1:, tilted].mean())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import copysign, isfinite, isnan
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
 from bbsd.expression.operations import COMPARISONS
@@ -69,7 +69,7 @@ def _tree(node: Node) -> Expr:
     if node.literal:
         return _literal(value_of(node))
     if node.operation == "slot":
-        return Name(str(node.data), NOWHERE)
+        return Name(node.slot.name, NOWHERE)
     operands = tuple(_tree(operand) for operand in node.operands)
     match node.operation, operands:
         case "negate", (operand,):
@@ -77,7 +77,7 @@ def _tree(node: Node) -> Expr:
         case "not", (operand,):
             return Unary("not", operand, NOWHERE)
         case "whole_power", (base,):
-            return Binary("**", base, Number(float(cast("int", node.data)), NOWHERE), NOWHERE)
+            return Binary("**", base, Number(float(node.index), NOWHERE), NOWHERE)
         case "select", (condition, then, otherwise):
             return Conditional(condition, then, otherwise, NOWHERE)
         case operation, (left, right) if operation in BINARY:

@@ -6,12 +6,12 @@ from enum import Enum
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.episode import Episode
-    from bbsd.language.meaning.names import Slot
 
 
 class Detail(Enum):
@@ -35,9 +35,9 @@ def traced_columns(meaning: Meaning) -> list[Column]:
     return [
         *(Column("slot", slot) for slot in episode.after),
         *(Column("definition", slot) for slot in traced_definitions(episode)),
-        *(Column("choice", ("controlling", robot, ())) for robot in robots),
-        *(Column("expectation", ("expectation", robot, ())) for robot in robots if episode.expects),
-        *(Column("reward", (term, robot, ())) for term in episode.reward for robot in robots),
+        *(Column("choice", Slot("controlling", robot)) for robot in robots),
+        *(Column("expectation", Slot("expectation", robot)) for robot in robots if episode.expects),
+        *(Column("reward", Slot(term, robot)) for term in episode.reward for robot in robots),
     ]
 
 

@@ -18,8 +18,8 @@ from bbsd.language.meaning.size import Size, size_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.names import Slot
 
 DEFAULT_LANES = 40
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -51,7 +51,7 @@ def _draws(nodes: Iterable[Node]) -> list[Node]:
 
 def _choices(draw: Node, constants: Constants) -> tuple[float, list[float]]:
     """The first value of a draw and the probabilities of it and those that follow."""
-    distribution, _ = cast("tuple[str, int]", draw.data)
+    distribution = draw.draw.distribution
     values = [constants.static(operand) for operand in draw.operands]
     match distribution, values:
         case "chance", [float(probability)]:
@@ -94,6 +94,5 @@ def _with(node: Node, chosen: dict[int, Node], graph: Graph) -> Node:
 
 def _copied(leaf: Node, operands: list[Node], graph: Graph) -> Node:
     if leaf.operation == "gather":
-        base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", leaf.data)
-        return graph.gather(base, strides, lengths, tuple(operands))
+        return graph.copy(leaf, operands)
     return leaf

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.writing.emission import TOP_BIT
 from bbsd.expression.graph import evaluate
 from bbsd.expression.kinds import Kind
-from bbsd.kernel.functions import clamp_index
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, word_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.constants import Block
-    from bbsd.language.meaning.names import Slot
     from bbsd.language.meaning.picture import Picture
 
     Stored = Mapping[Slot, float | str]
@@ -71,9 +68,8 @@ def starting_values(meaning: Meaning, key: int, constants: Sequence[float]) -> d
 
     def leaf(node: Node, operands: list[Any]) -> float:
         if node.operation != "draw":
-            return _constant(node, operands, constants)
-        distribution, word = cast("tuple[str, int]", node.data)
-        return DISTRIBUTIONS[distribution](key, fold(word | TOP_BIT, word_of(0)), *operands)
+            return node.read(constants, operands)
+        return DISTRIBUTIONS[node.draw.distribution](key, fold(node.draw.kernel_word, word_of(0)), *operands)
 
     start = meaning.episode.start
     with np.errstate(all="ignore"):
@@ -86,19 +82,11 @@ def _values(nodes: Sequence[Node], stored: Stored, step: int, constants: Sequenc
     def leaf(node: Node, operands: list[Any]) -> Any:  # noqa: ANN401 - a number or a truth
         match node.operation:
             case "slot":
-                value = stored[cast("Slot", node.data)]
+                value = stored[node.slot]
                 return bool(value) if node.kind is Kind.TRUTH else value
             case "step":
                 return float(step)
-        return _constant(node, operands, constants)
+        return node.read(constants, operands)
 
     with np.errstate(all="ignore"):
         return [float(value) for value in evaluate(nodes, leaf)]
-
-
-def _constant(node: Node, operands: list[Any], constants: Sequence[float]) -> float:
-    if node.operation == "constant":
-        return constants[cast("int", node.data)]
-    base, strides, lengths = cast("Block", node.data)
-    clamped = [clamp_index(index, length - 1) for index, length in zip(operands, lengths, strict=True)]
-    return constants[base + sum(stride * index for stride, index in zip(strides, clamped, strict=True))]

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler.writing.naming import slot_text
 from bbsd.evaluation.sums import column_sums, deviation, expectation, mean, row_means
 
 if TYPE_CHECKING:
@@ -150,7 +149,7 @@ def _named(
     }
     share = {name: float(value) / (steps_taken * robots) for name, value in zip(who, control, strict=True)}
     counts = {
-        slot_text(slot, robots): int(value)
+        slot.text(robots): int(value)
         for slot, value in zip(problem.checked_slots, not_finite, strict=True)
         if value
     }

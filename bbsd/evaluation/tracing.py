@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.details import traced_columns
-from bbsd.compiler.writing.naming import slot_text
 from bbsd.evaluation.scene import Scene, scene, starting_values
+from bbsd.expression.node_data import Slot
 from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from bbsd.compiler import Problem
     from bbsd.compiler.details import Column
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.names import Slot
     from bbsd.language.meaning.tables.labels import Labels
 
 EXPECTATION = ("", "failed", "held")
@@ -55,18 +54,10 @@ class Trace:
         robots = range(self.robots)
         return [
             "step",
-            *(slot_text(slot, self.robots) for slot in self.values),
-            *(
-                slot_text((what, robot, ()), self.robots)
-                for robot in robots
-                for what in ("controlling", "action")
-            ),
-            *(slot_text(("expectation", robot, ()), self.robots) for robot in range(len(self.expectations))),
-            *(
-                slot_text((f"reward_{term}", robot, ()), self.robots)
-                for term in self.rewards
-                for robot in robots
-            ),
+            *(slot.text(self.robots) for slot in self.values),
+            *(Slot(what, robot).text(self.robots) for robot in robots for what in ("controlling", "action")),
+            *(Slot("expectation", robot).text(self.robots) for robot in range(len(self.expectations))),
+            *(Slot(f"reward_{term}", robot).text(self.robots) for term in self.rewards for robot in robots),
         ]
 
     @property

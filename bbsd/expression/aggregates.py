@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.checks import has_arguments, known_whole, of_kind
 from bbsd.expression.kinds import Kind
@@ -74,10 +74,10 @@ def _folded(function: str, nodes: Sequence[Node], scope: Scope) -> Node:
 
 
 def _best(expr: Call, elements: Sequence[Element], nodes: Sequence[Node], scope: Scope) -> Node:
-    if any(isinstance(element.label, tuple) for element in elements):
+    labels = [element.label for element in elements if not isinstance(element.label, tuple)]
+    if len(labels) < len(elements):
         return scope.mistake("BB062", f"{expr.function} needs one number after for, not a row", expr.span)
     graph, operation = scope.graph, "<" if expr.function == "argmin" else ">"
-    labels = cast("list[Node]", [element.label for element in elements])
     best, chosen = nodes[0], labels[0]
     for node, label in zip(nodes[1:], labels[1:], strict=True):
         better = graph.apply(operation, node, best)

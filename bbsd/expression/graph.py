@@ -10,13 +10,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum
 from math import frexp, isfinite
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Draw, Gather, Literal, NodeData, Slot
 from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterable, Mapping
+    from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+
+T = TypeVar("T")
+Data = TypeVar("Data", bound=NodeData)
 
 MAX_NODES = 100_000
 MAX_WORK = 500_000
@@ -45,7 +49,7 @@ class Node:
     number: int
     operation: str
     operands: tuple[Node, ...]
-    data: Hashable
+    data: NodeData
     kind: Kind
     level: Level
 
@@ -53,6 +57,36 @@ class Node:
     def literal(self) -> bool:
         """Whether the value is written in the node itself."""
         return self.operation == "literal"
+
+    @property
+    def slot(self) -> Slot:
+        """What is read. Raises TypeError where the node reads no slot."""
+        return self.holding(Slot)
+
+    @property
+    def draw(self) -> Draw:
+        """What is drawn. Raises TypeError where the node is no draw."""
+        return self.holding(Draw)
+
+    @property
+    def gather(self) -> Gather:
+        """Which element of the constants is read. Raises TypeError where the node is no gather."""
+        return self.holding(Gather)
+
+    @property
+    def index(self) -> int:
+        """Which constant, robot or fold the node is about. Raises TypeError where it is about none."""
+        return self.holding(int)
+
+    def read(self, constants: Sequence[T], indices: Sequence[float]) -> T:
+        """Return the constant or the element that the node is, of a sequence of all constants."""
+        return constants[self.index] if self.operation == "constant" else self.gather.read(constants, indices)
+
+    def holding(self, data_type: type[Data]) -> Data:
+        """Return the data. Raises TypeError where they are not of a type."""
+        if not isinstance(self.data, data_type):
+            raise TypeError(f"the data of {self.operation} are no {data_type.__name__}: {self.data!r}")
+        return self.data
 
 
 class GraphTooLargeError(Exception):
@@ -72,36 +106,47 @@ class Graph:
 
     def number(self, value: float) -> Node:
         """A literal number. Zeros of both signs are different literals."""
-        return self.make("literal", (), (float(value), str(float(value))), Kind.NUMBER, Level.CALL)
+        return self.make("literal", (), Literal(float(value), str(float(value))), Kind.NUMBER, Level.CALL)
 
     def truth(self, *, value: bool) -> Node:
         """A literal truth."""
-        return self.make("literal", (), (bool(value), "truth"), Kind.TRUTH, Level.CALL)
+        return self.make("literal", (), Literal(bool(value), "truth"), Kind.TRUTH, Level.CALL)
 
     def cell(self, value: int) -> Node:
         """A literal cell index."""
-        return self.make("literal", (), (int(value), "cell"), Kind.CELL, Level.CALL)
+        return self.make("literal", (), Literal(int(value), "cell"), Kind.CELL, Level.CALL)
 
     @property
     def unknown(self) -> Node:
         """The value of what could not be understood."""
         return self.make("unknown", (), None, Kind.UNKNOWN, Level.CALL)
 
-    def leaf(self, operation: str, data: Hashable, kind: Kind, level: Level) -> Node:
+    def leaf(self, operation: str, data: NodeData, kind: Kind, level: Level) -> Node:
         """A value that comes from outside the graph: a slot that is read, a constant, the step."""
         return self.make(operation, (), data, kind, level)
 
     def draw(self, distribution: str, word: int, operands: tuple[Node, ...]) -> Node:
         """A draw; `word` names its place in the spec, robot and element, so no two are ever the same node."""
-        return self.make("draw", operands, (distribution, word), kind_drawn(distribution), Level.LANE)
+        return self.make("draw", operands, Draw(distribution, word), kind_drawn(distribution), Level.LANE)
 
     def gather(
         self, base: int, strides: tuple[int, ...], lengths: tuple[int, ...], indices: tuple[Node, ...]
     ) -> Node:
         """An element of the constants at `base + sum(stride * index)`, each index clamped to its length."""
-        return self.make("gather", indices, (base, strides, lengths), Kind.NUMBER, _highest(indices))
+        return self.make("gather", indices, Gather(base, strides, lengths), Kind.NUMBER, _highest(indices))
 
-    def apply(self, operation: str, *operands: Node, data: Hashable = None) -> Node:
+    def copy(self, node: Node, operands: Sequence[Node]) -> Node:
+        """The operation of a node on new operands."""
+        match node.data:
+            case Draw(distribution, word):
+                return self.draw(distribution, word, tuple(operands))
+            case Gather(base, strides, lengths):
+                return self.gather(base, strides, lengths, tuple(operands))
+        if node.operands:
+            return self.apply(node.operation, *operands, data=node.data)
+        return self.make(node.operation, (), node.data, node.kind, node.level)
+
+    def apply(self, operation: str, *operands: Node, data: NodeData = None) -> Node:
         """An operation on nodes; carried out now if all operands are literals."""
         if any(node.kind is Kind.UNKNOWN for node in operands):
             return self.unknown
@@ -154,7 +199,7 @@ class Graph:
                 return self.number(value)
 
     def make(
-        self, operation: str, operands: tuple[Node, ...], data: Hashable, kind: Kind, level: Level
+        self, operation: str, operands: tuple[Node, ...], data: NodeData, kind: Kind, level: Level
     ) -> Node:
         """The one node of that meaning."""
         key = (operation, kind, data, *(node.number for node in operands))
@@ -170,9 +215,9 @@ def _exact_reciprocal(divisor: float) -> float | None:
     return 1.0 / divisor if abs(fraction) == 0.5 and abs(exponent) < 1000 else None
 
 
-def value_of(node: Node) -> Any:  # noqa: ANN401 - a number, a truth or a cell index
-    """The value of a literal."""
-    return cast("tuple[Any, ...]", node.data)[0]
+def value_of(node: Node) -> float:
+    """Return the value of a literal: a number, a truth or a cell index."""
+    return node.holding(Literal).value
 
 
 def _highest(nodes: tuple[Node, ...]) -> Level:
@@ -195,7 +240,7 @@ def _kind_of(operation: str, operands: tuple[Node, ...]) -> Kind:
     return operands[0].kind
 
 
-def compute(operation: str, operands: list[Any], data: Hashable = None) -> Any:  # noqa: ANN401 - as `value_of`
+def compute(operation: str, operands: Sequence[Any], data: NodeData = None) -> Any:  # noqa: ANN401 - a number, a truth or a cell index
     """The value of an operation on plain numbers and truths."""
     if operation in INFIX:
         return INFIX[operation](*operands)
@@ -251,7 +296,7 @@ LEAVES = frozenset({"slot", "constant", "step", "start", "draw", "gather", "choi
 
 
 def whole_nodes(
-    outputs: Iterable[Node], whole_slots: Mapping[Hashable, bool], whole_constant: Callable[[Hashable], bool]
+    outputs: Iterable[Node], whole_slots: Mapping[Slot, bool], whole_constant: Callable[[int | Gather], bool]
 ) -> dict[int, bool]:
     """For every node needed, whether it is certainly a whole number, given that for slots and constants."""
     whole: dict[int, bool] = {}
@@ -264,21 +309,23 @@ def whole_nodes(
 def _is_whole(
     node: Node,
     operands: list[bool],
-    whole_slots: Mapping[Hashable, bool],
-    whole_constant: Callable[[Hashable], bool],
+    whole_slots: Mapping[Slot, bool],
+    whole_constant: Callable[[int | Gather], bool],
 ) -> bool:
     match node.operation:
         case "literal":
             value = value_of(node)
             return not isinstance(value, float) or not isfinite(value) or value.is_integer()
         case "slot":
-            return whole_slots.get(node.data, False)
+            return whole_slots.get(node.slot, False)
         case "unknown":
             return True
-        case "constant" | "gather":
-            return whole_constant(node.data)
+        case "constant":
+            return whole_constant(node.index)
+        case "gather":
+            return whole_constant(node.gather)
         case "draw":
-            return cast("tuple[str, int]", node.data)[0] == "integers" and all(operands)
+            return node.draw.distribution == "integers" and all(operands)
         case "select":
             return all(operands[1:])
         case "step" | "floor" | "ceil" | "round_half_even" | "sign" | "cell_of" | "clamp_index":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TypeAlias, cast
+from typing import TypeAlias
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.checks import has_arguments, of_kind
@@ -124,9 +124,8 @@ def _definition(
 
 def index(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
     """The element of a list, or what one robot has."""
-    if scope.behavior and _is_robots_own(expr.of, scope, elaborate):
-        what = f"{cast('Name', expr.of).name} of another robot"
-        return unseen(what, expr.of.span, scope, "" if scope.local else render(expr))
+    if scope.behavior and (name := _name_of_robots(expr.of, scope, elaborate)):
+        return unseen(f"{name} of another robot", expr.of.span, scope, "" if scope.local else render(expr))
     chosen = of_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
     items = _robots_values(expr.of, chosen, scope, elaborate) or elaborate(expr.of, scope)
     if isinstance(items, Node):
@@ -156,14 +155,13 @@ def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -
     return tuple(values)
 
 
-def _is_robots_own(of: Expr, scope: Scope, elaborate: Elaborate) -> bool:
-    """Whether what is indexed names one value for each robot, not a list that the behavior's robot has."""
+def _name_of_robots(of: Expr, scope: Scope, elaborate: Elaborate) -> str | None:
+    """Return the indexed name if it has one value for each robot; None where the behavior's robot has a list."""
     if not isinstance(of, Name) or of.name in scope.local:
-        return False
-    found = scope.names.get(of.name)
-    if not isinstance(found, PerRobot | Definition):
-        return False
-    return not isinstance(name_value(of, scope, elaborate), tuple)
+        return None
+    if not isinstance(scope.names.get(of.name), PerRobot | Definition):
+        return None
+    return None if isinstance(name_value(of, scope, elaborate), tuple) else of.name
 
 
 def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> Value:

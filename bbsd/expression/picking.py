@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, Node, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Gather
 from bbsd.kernel.functions import clamp_index
 
 if TYPE_CHECKING:
@@ -13,40 +14,41 @@ if TYPE_CHECKING:
 
 
 def pick(items: tuple[Value, ...], index: Node, graph: Graph) -> Value:
-    """The element of `items` at `index`; lists in the list are picked element by element."""
+    """Return the element of `items` at `index`; where the items are lists, their elements are picked one by one."""
     if index.literal:
         return items[clamp_index(value_of(index), len(items) - 1)]
-    if any(isinstance(item, tuple) for item in items):
-        rows = cast("tuple[tuple[Value, ...], ...]", items)
-        return tuple(pick(tuple(column), index, graph) for column in zip(*rows, strict=True))
-    nodes = cast("tuple[Node, ...]", items)
-    return _gathered(nodes, index, graph) or _chosen(nodes, index, graph)
+    nodes = [item for item in items if isinstance(item, Node)]
+    if len(nodes) == len(items):
+        return _gathered(nodes, index, graph) or _chosen(nodes, index, graph)
+    rows = [item for item in items if isinstance(item, tuple)]
+    return tuple(pick(column, index, graph) for column in zip(*rows, strict=True))
 
 
-def _gathered(nodes: tuple[Node, ...], index: Node, graph: Graph) -> Node | None:
-    """One read of the constants, where the nodes stand there at equal distances."""
-    origins = [_origin(node) for node in nodes]
-    if len(nodes) < 2 or None in origins:
+def _gathered(nodes: list[Node], index: Node, graph: Graph) -> Node | None:
+    """Return one read of the constants, where the nodes stand there at equal distances; else None."""
+    reads = [read for node in nodes if (read := _read(node)) is not None]
+    if not 1 < len(nodes) == len(reads):
         return None
-    (base, *rest), kinds = zip(*cast("list[tuple[int, tuple[object, ...]]]", origins), strict=True)
-    stride = rest[0] - base
-    if len(set(kinds)) > 1 or any(place != base + stride * (k + 1) for k, place in enumerate(rest)):
-        return None
-    strides, lengths, operands = cast("tuple[tuple[int, ...], tuple[int, ...], tuple[Node, ...]]", kinds[0])
-    return graph.gather(base, (*strides, stride), (*lengths, len(nodes)), (*operands, index))
+    first, second = reads[0][0], reads[1][0]
+    stride = second.base - first.base
+    for place, (gather, indices) in enumerate(reads):
+        if gather != first._replace(base=first.base + stride * place) or indices != reads[0][1]:
+            return None
+    strides, lengths = (*first.strides, stride), (*first.lengths, len(nodes))
+    return graph.gather(first.base, strides, lengths, (*reads[0][1], index))
 
 
-def _origin(node: Node) -> tuple[int, tuple[object, ...]] | None:
-    """Where a node reads the constants: its base, and what else tells how."""
-    if node.operation == "constant":
-        return cast("int", node.data), ((), (), ())
-    if node.operation == "gather":
-        base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", node.data)
-        return base, (strides, lengths, node.operands)
+def _read(node: Node) -> tuple[Gather, tuple[Node, ...]] | None:
+    """Return which element of the constants a node is, and by which indices; None where it is none."""
+    match node.operation:
+        case "constant":
+            return Gather(node.index, (), ()), ()
+        case "gather":
+            return node.gather, node.operands
     return None
 
 
-def _chosen(nodes: tuple[Node, ...], index: Node, graph: Graph) -> Node:
+def _chosen(nodes: list[Node], index: Node, graph: Graph) -> Node:
     """A chain of choices; an index that is not a number gives the first element, as a clamped one does."""
     found = nodes[0]
     for place, node in enumerate(nodes[1:], start=1):

@@ -1,23 +1,19 @@
-"""Agents and draws as plain arrays, for programs that know nothing of bbsd."""
+"""Agents as plain arrays, for programs that know nothing of bbsd."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
     from bbsd.evaluation import Agents
-    from bbsd.expression.graph import Node
 
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 Symbols = npt.NDArray[np.uint8]
 Words = npt.NDArray[np.uint64]
-
-TOP_BIT = 1 << 63
-"""Set in the words by which compiled kernels name their draws."""
 
 
 def padded_tables(agents: Agents, n_cells: int) -> Symbols:
@@ -26,8 +22,3 @@ def padded_tables(agents: Agents, n_cells: int) -> Symbols:
     for index, pool in enumerate(agents.pools):
         tables[:, index, : pool.shape[1]] = pool[agents.members[:, index]]
     return tables
-
-
-def draw_word(node: Node) -> int:
-    """Return the word by which a compiled kernel names a draw."""
-    return cast("tuple[str, int]", node.data)[1] | TOP_BIT

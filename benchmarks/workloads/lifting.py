@@ -9,10 +9,11 @@ import numpy as np
 
 import bbsd
 from bbsd.compiler import compile_meaning
+from bbsd.expression.node_data import Slot
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, uniform, word_of
 from bbsd.solver.random_agents import random_agents
-from benchmarks.workloads.arrays import draw_word, padded_tables
+from benchmarks.workloads.arrays import padded_tables
 from benchmarks.workloads.specs import KEY, SPECS
 
 if TYPE_CHECKING:
@@ -78,6 +79,6 @@ def starting_heights(problem: Problem, streams: Words) -> Floats:
     """Return the heights that the kernel draws at the start of an episode, (n_agents, n_robots)."""
     elementwise = cast("Callable[..., Floats]", uniform)
     start = problem.meaning.episode.start
-    words = [draw_word(start["height", robot, ()]) for robot in range(ROBOTS)]
+    words = [start[Slot("height", robot)].draw.kernel_word for robot in range(ROBOTS)]
     heights = [elementwise(streams, fold(word, word_of(0)), 2.0, 3.0) for word in words]
     return np.ascontiguousarray(np.transpose(heights))

@@ -8,9 +8,10 @@ import numpy as np
 
 import bbsd
 from bbsd.compiler import compile_meaning
+from bbsd.expression.node_data import Slot
 from bbsd.kernel.keys import keys
 from bbsd.solver.random_agents import random_agents
-from benchmarks.workloads.arrays import draw_word, padded_tables
+from benchmarks.workloads.arrays import padded_tables
 from benchmarks.workloads.specs import KEY, SPECS
 
 if TYPE_CHECKING:
@@ -49,11 +50,11 @@ def mobile_robot(n_agents: int) -> tuple[Workload, Callable[[], Floats]]:
 def draw_words(problem: Problem) -> Words:
     """Return the names of the draws of the starting values, then of those in each step."""
     episode = problem.meaning.episode
-    started = [episode.start[name, 0, ()] for name in ("x", "y", "heading", "whim")]
-    sonars = [("sonar", 0, (index,)) for index in range(SONARS)]
-    eyes = [("light", 0, (index,)) for index in range(EYES)]
-    drawn = [only_draw(episode.after[slot]) for slot in [("whim", 0, ()), *sonars, *eyes]]
-    return np.array([draw_word(node) for node in (*started, *drawn)], np.uint64)
+    started = [episode.start[Slot(name, 0)] for name in ("x", "y", "heading", "whim")]
+    sonars = [Slot("sonar", 0, (index,)) for index in range(SONARS)]
+    eyes = [Slot("light", 0, (index,)) for index in range(EYES)]
+    drawn = [only_draw(episode.after[slot]) for slot in [Slot("whim", 0), *sonars, *eyes]]
+    return np.array([node.draw.kernel_word for node in (*started, *drawn)], np.uint64)
 
 
 def only_draw(node: Node) -> Node:

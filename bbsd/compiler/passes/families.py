@@ -18,8 +18,8 @@ from bbsd.expression.graph import Level, Node
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from bbsd.compiler.passes.robot_graph import Gathered, RobotGraph
-    from bbsd.language.meaning.names import Slot
+    from bbsd.compiler.passes.robot_graph import RobotGraph
+    from bbsd.expression.node_data import Variable
 
 
 class CircularError(Exception):
@@ -32,7 +32,7 @@ class Families:
 
     new: RobotGraph
     """Where the nodes are made; those of all moments of an episode in one."""
-    team_slots: frozenset[tuple[str, tuple[int, ...]]]
+    team_slots: frozenset[Variable]
     """Name and place of what all robots always hold alike: stored once."""
     found: dict[Key, Node | None] = field(default_factory=dict)
     """None for pairs of robots that have nothing in common."""
@@ -125,7 +125,7 @@ class Families:
             case "slot":
                 yield (), lambda _: self._team_slot(node)
             case "choice":
-                yield (), lambda _: self.new.of(self.new.choice(), cast("int", node.data))
+                yield (), lambda _: self.new.of(self.new.choice(), node.index)
         if node.number in self._owners and node.number not in self._apart:
             family, robot = self._owners[node.number]
             yield (family,), lambda made: self._member(made[0], robot)
@@ -134,10 +134,10 @@ class Families:
         yield [self._key([operand]) for operand in node.operands], lambda made: self.new.again([node], made)
 
     def _team_slot(self, node: Node) -> Node:
-        name, robot, place = cast("Slot", node.data)
-        if robot is None or (name, place) in self.team_slots:
+        slot = node.slot
+        if slot.robot is None or slot.variable in self.team_slots:
             return self.new.slot(node, Level.LANE)
-        return self.new.of(self.new.slot(node, Level.EACH), robot)
+        return self.new.of(self.new.slot(node, Level.EACH), slot.robot)
 
     def _member(self, family: Node, robot: int) -> Node | None:
         if family.level is Level.EACH:
@@ -169,10 +169,9 @@ class Families:
     def _ways_of_each(self, nodes: Sequence[Node]) -> Iterator[Plan]:
         first = nodes[0]
         if all(node.operation == "choice" for node in nodes):
-            yield (), lambda _: self.new.other(self.new.choice(), [cast("int", node.data) for node in nodes])
-        if self._are_one_slot(nodes):
-            robots = [cast("int", cast("Slot", node.data)[1]) for node in nodes]
-            yield (), lambda _: self.new.other(self.new.slot(first, Level.EACH), robots)
+            yield (), lambda _: self.new.other(self.new.choice(), [node.index for node in nodes])
+        if (robots_read := self._robots_of_slot(nodes)) is not None:
+            yield (), lambda _: self.new.other(self.new.slot(first, Level.EACH), robots_read)
         if (seen := self._seen_of(nodes)) is not None:
             family, robots = seen
             yield (family,), lambda made: self._seen(made[0], robots)
@@ -186,12 +185,14 @@ class Families:
             yield needs, lambda made: self.new.again(nodes, made)
         yield self._plan_one_by_one(nodes)
 
-    def _are_one_slot(self, nodes: Sequence[Node]) -> bool:
+    def _robots_of_slot(self, nodes: Sequence[Node]) -> list[int] | None:
+        """Return the robots whose slot of one variable nodes read; None where they read something else."""
         if any(node.operation != "slot" for node in nodes):
-            return False
-        (name, _, place), *rest = [cast("Slot", node.data) for node in nodes]
-        same = all((other, elsewhere) == (name, place) for other, _, elsewhere in rest)
-        return same and (name, place) not in self.team_slots
+            return None
+        robots = [node.slot.robot for node in nodes if node.slot.robot is not None]
+        variables = {node.slot.variable for node in nodes}
+        one = len(robots) == len(nodes) and len(variables) == 1 and variables.isdisjoint(self.team_slots)
+        return robots if one else None
 
     def _seen_of(self, nodes: Sequence[Node]) -> tuple[tuple[int, ...], list[int]] | None:
         """The family whose values these are, robots mixed, and whose value each robot has."""
@@ -229,7 +230,7 @@ def _same_but_for_place(one: Node, other: Node) -> bool:
     """Whether nodes do the same but for the word of a draw, or the base of an element of the constants."""
     match one.operation:
         case "draw":
-            return cast("tuple[str, int]", one.data)[0] == cast("tuple[str, int]", other.data)[0]
+            return one.draw.distribution == other.draw.distribution
         case "gather":
-            return cast("Gathered", one.data)[1:] == cast("Gathered", other.data)[1:]
+            return one.gather[1:] == other.gather[1:]
     return one.data == other.data

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.compiler.passes.pairs import (
     CHAINS,
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from bbsd.compiler.passes.robot_graph import RobotGraph
-    from bbsd.language.meaning.names import Slot
+    from bbsd.expression.node_data import Variable
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ class Folds:
     """Plans loops over pairs for the families of one moment."""
 
     new: RobotGraph
-    team_slots: frozenset[tuple[str, tuple[int, ...]]]
+    team_slots: frozenset[Variable]
     key: Callable[[Sequence[Node]], Family]
     """The key of a family, given for every robot."""
     owners: Mapping[int, tuple[tuple[int, ...], int]]
@@ -88,8 +88,8 @@ class Folds:
         found = [number]
         for each in found:
             for node in of_pairs(self._made.get(each, ())):
-                if node.operation == "so_far" and node.data not in found:
-                    found.append(cast("int", node.data))
+                if node.operation == "so_far" and node.index not in found:
+                    found.append(node.index)
         return found
 
     def _number_of(self, chain: Chain) -> int:
@@ -152,9 +152,9 @@ class Folds:
 
     def _plan_of_slots(self, pairs: Pairs) -> Plan | None:
         corner, new = pairs.corner, self.new
-        name, _, place = cast("Slot", corner.data)
-        robot_of = robot_of_slot(name, place)
-        if (name, place) in self.team_slots and all(robot_of(node) is not None for node in pairs.every()):
+        variable = corner.slot.variable
+        robot_of = robot_of_slot(variable)
+        if variable in self.team_slots and all(robot_of(node) is not None for node in pairs.every()):
             return (), lambda _: new.slot(corner, Level.LANE)
         if pairs.are_theirs(robot_of):
             return (), lambda _: new.theirs(new.slot(corner, Level.EACH), others=pairs.others)

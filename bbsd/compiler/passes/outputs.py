@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import needed
+from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -22,10 +23,10 @@ def credit_outputs(episode: Episode) -> list[Node]:
 
 def with_slots_read(outputs: Iterable[Node], episode: Episode) -> list[Node]:
     """Return nodes of a step, and the next values of all slots that they read, of the slots these read, and so on."""
-    outputs, slots = list(outputs), set[object]()
+    outputs, slots = list(outputs), set[Slot]()
     while True:
         nodes = [*outputs, *(node for slot, node in episode.after.items() if slot in slots)]
-        read = {node.data for node in needed(nodes) if node.operation == "slot"}
+        read = {node.slot for node in needed(nodes) if node.operation == "slot"}
         if read == slots:
             return nodes
         slots = read

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Level, Node
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from bbsd.language.meaning.names import Slot
+    from bbsd.expression.node_data import Variable
 
 MOST_PAIRS_WRITTEN_OUT = 8
 """Robots looked at up to this number are written out, which runs faster."""
@@ -141,10 +141,8 @@ def previous_link(node: Node, operation: str) -> Node | None:
 
 def chain_to(nodes: Sequence[Node], n_links: int, *, others: bool) -> Chain | None:
     """The chain of so many links that ends with a node for each robot; None where they are none."""
-    rows = [_links(node, nodes[0].operation, n_links) for node in nodes]
-    if any(row is None for row in rows):
-        return None
-    return Chain(Pairs(tuple(cast("list[tuple[Node, ...]]", rows)), others))
+    rows = [row for node in nodes if (row := _links(node, nodes[0].operation, n_links)) is not None]
+    return Chain(Pairs(tuple(rows), others)) if len(rows) == len(nodes) else None
 
 
 def _links(node: Node, operation: str, n_links: int) -> tuple[Node, ...] | None:
@@ -180,13 +178,12 @@ def of_pairs(nodes: Iterable[Node]) -> list[Node]:
     return [*found.values()]
 
 
-def robot_of_slot(name: str, place: tuple[int, ...]) -> Callable[[Node], int | None]:
-    """Whose slot of that name and place a node is; None for all other nodes."""
+def robot_of_slot(variable: Variable) -> Callable[[Node], int | None]:
+    """Whose slot of a variable a node is; None for all other nodes."""
 
     def robot_of(node: Node) -> int | None:
         if node.operation != "slot":
             return None
-        own, robot, elsewhere = cast("Slot", node.data)
-        return robot if (own, elsewhere) == (name, place) else None
+        return node.slot.robot if node.slot.variable == variable else None
 
     return robot_of

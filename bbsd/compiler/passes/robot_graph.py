@@ -18,18 +18,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import count
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Level, Node, kind_drawn
+from bbsd.expression.graph import Graph, Level, Node
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import (
+    Draw,
+    Gather,
+    Literal,
+    PairFolds,
+    RobotDraws,
+    RobotGathers,
+    RobotIndices,
+    RobotLiterals,
+    Slot,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-
-    from bbsd.language.meaning.names import Slot
-
-Gathered = tuple[int, tuple[int, ...], tuple[int, ...]]
-"""Where an element of the constants is found: from a base by strides of so many elements, with the lengths."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +53,8 @@ class RobotGraph:
 
     def slot(self, node: Node, level: Level) -> Node:
         """Each robot's slot of that name, or the team's, which is the world's or the same for all robots."""
-        name, robot, place = cast("Slot", node.data)
-        return self.graph.leaf("slot", (name, None if robot is None else 0, place), node.kind, level)
+        name, robot, place = node.slot
+        return self.graph.leaf("slot", Slot(name, None if robot is None else 0, place), node.kind, level)
 
     def of(self, family: Node, robot: int) -> Node:
         """One robot's value."""
@@ -58,7 +64,7 @@ class RobotGraph:
         """Another robot's value for each robot; the family itself if that is its own."""
         if list(robots) == list(range(self.robots)):
             return family
-        return self.graph.make("other", (family,), tuple(robots), family.kind, Level.EACH)
+        return self.graph.make("other", (family,), RobotIndices(robots), family.kind, Level.EACH)
 
     def over(self, family: Node, operation: str) -> Node:
         """A family folded."""
@@ -75,12 +81,17 @@ class RobotGraph:
     def among(self, folds: Sequence[tuple[int, Node, Node]], *, others: bool) -> Node:
         """The first fold, given by its number, the next value and the first one, with the others that it needs."""
         operands = tuple(node for _, following, first in folds for node in (following, first))
-        data = others, tuple(fold for fold, _, _ in folds)
+        data = PairFolds(others, tuple(fold for fold, _, _ in folds))
         return self.graph.make("among", operands, data, operands[0].kind, Level.EACH)
 
     def varied(self, operation: str, nodes: Sequence[Node]) -> Node:
         """A `table` of literals or a `pick` of constants."""
-        return self.graph.make(operation, (), tuple(node.data for node in nodes), nodes[0].kind, Level.ROBOT)
+        data = (
+            RobotLiterals(node.holding(Literal) for node in nodes)
+            if operation == "table"
+            else RobotIndices(node.index for node in nodes)
+        )
+        return self.graph.make(operation, (), data, nodes[0].kind, Level.ROBOT)
 
     def each(self, values: Sequence[Node]) -> Node:
         """Values that have nothing in common."""
@@ -88,29 +99,24 @@ class RobotGraph:
 
     def again(self, nodes: Sequence[Node], operands: Sequence[Node]) -> Node:
         """The operation of a node, or of all nodes of a family, on new operands."""
-        node, graph = nodes[0], self.graph
-        match node.operation:
-            case "draw":
+        match nodes[0].data:
+            case Draw() if len(nodes) > 1:
                 return self._draw(nodes, operands)
-            case "gather":
+            case Gather():
                 return self._gather(nodes, operands)
-        if not node.operands:
-            return graph.make(node.operation, (), node.data, node.kind, node.level)
-        return graph.apply(node.operation, *operands, data=node.data)
+        return self.graph.copy(nodes[0], operands)
 
     def _draw(self, nodes: Sequence[Node], operands: Sequence[Node]) -> Node:
-        (distribution, word), *others = (cast("tuple[str, int]", node.data) for node in nodes)
-        if not others:
-            return self.graph.draw(distribution, word, tuple(operands))
-        data = distribution, (word, *(other for _, other in others))
-        return self.graph.make("draw", tuple(operands), data, kind_drawn(distribution), Level.EACH)
+        data = RobotDraws(nodes[0].draw.distribution, tuple(node.draw.word for node in nodes))
+        return self.graph.make("draw", tuple(operands), data, nodes[0].kind, Level.EACH)
 
     def _gather(self, nodes: Sequence[Node], operands: Sequence[Node]) -> Node:
         """An element of the constants, from each robot's own base where they differ."""
-        (base, strides, lengths), *others = (cast("Gathered", node.data) for node in nodes)
-        made = self.graph.gather(base, strides, lengths, tuple(operands))
-        bases = base, *(other for other, _, _ in others)
+        made = self.graph.copy(nodes[0], operands)
+        _, strides, lengths = made.gather
+        bases = tuple(node.gather.base for node in nodes)
         if len(set(bases)) == 1:
             return made
         level = Level.EACH if made.level in (Level.LANE, Level.EACH) else Level.ROBOT
-        return self.graph.make("gather", tuple(operands), (bases, strides, lengths), made.kind, level)
+        data = RobotGathers(bases, strides, lengths)
+        return self.graph.make("gather", tuple(operands), data, made.kind, level)

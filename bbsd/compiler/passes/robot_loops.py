@@ -11,21 +11,19 @@ from typing import TYPE_CHECKING
 
 from bbsd.compiler.passes.families import CircularError, Families
 from bbsd.compiler.passes.robot_graph import RobotGraph
+from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Variable
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
     from bbsd.language.meaning.episode import Episode
-    from bbsd.language.meaning.names import Slot
 
 MOST_ROBOTS_WRITTEN_OUT = 3
 """Robots up to this number are written one after the other, which runs faster."""
-
-Place = tuple[str, tuple[int, ...]]
-"""A slot's name and place, of any robot."""
 
 
 def loop_over_robots(meaning: Meaning, most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> Meaning:
@@ -47,9 +45,9 @@ def _episode(episode: Episode, robots: int) -> Episode:
     # value happens to be the same.
     new, alike = RobotGraph(robots), frozenset(_held_alike(episode))
     beginning, deciding, families = (Families(new, alike) for _ in range(3))
-    beginning.know(_by_place(episode.start).values())
+    beginning.know(_by_variable(episode.start).values())
     for group in (episode.acted, episode.after, episode.definitions):
-        families.know(_by_place(group).values())
+        families.know(_by_variable(group).values())
     after = _rolled(episode.after, families)
     return replace(
         episode,
@@ -65,35 +63,37 @@ def _episode(episode: Episode, robots: int) -> Episode:
     )
 
 
-def _held_alike(episode: Episode) -> Iterable[Place]:
+def _held_alike(episode: Episode) -> Iterable[Variable]:
     """Names and places whose value is the same for all robots at every moment."""
-    start = _by_place(episode.start)
-    for place, nodes in _by_place(episode.after).items():
-        if all(len({node.number for node in each}) == 1 for each in (nodes, start[place])):
-            yield place
+    start = _by_variable(episode.start)
+    for variable, nodes in _by_variable(episode.after).items():
+        if all(len({node.number for node in values}) == 1 for values in (nodes, start[variable])):
+            yield variable
 
 
-def _by_place(slots: Mapping[Slot, Node]) -> dict[Place, list[Node]]:
-    """The robots' nodes of each name and place; what is the world's is left out."""
-    found: dict[Place, list[Node]] = {}
-    for (name, robot, place), node in slots.items():
-        if robot is not None:
-            found.setdefault((name, place), []).append(node)
-    return found
+def _by_variable(slots: Mapping[Slot, Node]) -> dict[Variable, list[Node]]:
+    """Return the robots' nodes of each variable; the world's are left out."""
+    nodes: dict[Variable, list[Node]] = {}
+    for slot, node in slots.items():
+        if slot.robot is not None:
+            nodes.setdefault(slot.variable, []).append(node)
+    return nodes
 
 
 def _rolled(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
-    by_place = _by_place(slots)
+    by_variable = _by_variable(slots)
     return {
-        (name, robot, place): families.team(node) if robot is None else families.each(by_place[name, place])
-        for (name, robot, place), node in slots.items()
-        if not robot
+        slot: families.team(node) if slot.robot is None else families.each(by_variable[slot.variable])
+        for slot, node in slots.items()
+        if not slot.robot
     }
 
 
 def _met(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
     """Of values that only lend their names to others, those that others need."""
-    found = {(name, 0, place): families.known(nodes) for (name, place), nodes in _by_place(slots).items()}
+    found = {
+        Slot(name, 0, place): families.known(nodes) for (name, place), nodes in _by_variable(slots).items()
+    }
     return {slot: node for slot, node in found.items() if node is not None}
 
 

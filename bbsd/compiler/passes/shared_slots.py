@@ -7,16 +7,16 @@ the same value in every step. Found by splitting groups until nothing splits.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import LEAVES, Graph, Node, needed
+from bbsd.expression.graph import Graph, Node, needed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.episode import Episode
-    from bbsd.language.meaning.names import Slot
 
 Renamed = dict[int, Node]
 """Nodes by the number of the node they stand for."""
@@ -56,16 +56,8 @@ def _read_from(groups: Mapping[Slot, Slot], outputs: Iterable[Node], graph: Grap
     for node in needed(outputs):
         operands = tuple(found[operand.number] for operand in node.operands)
         if node.operation == "slot":
-            slot = groups.get(cast("Slot", node.data), node.data)
+            slot = groups.get(node.slot, node.slot)
             found[node.number] = graph.leaf("slot", slot, node.kind, node.level)
-        elif node.operation == "gather":
-            base, strides, lengths = cast("tuple[int, tuple[int, ...], tuple[int, ...]]", node.data)
-            found[node.number] = graph.gather(base, strides, lengths, operands)
-        elif node.operation == "draw":
-            distribution, word = cast("tuple[str, int]", node.data)
-            found[node.number] = graph.draw(distribution, word, operands)
-        elif node.literal or node.operation in LEAVES:
-            found[node.number] = node
         else:
-            found[node.number] = graph.apply(node.operation, *operands, data=node.data)
+            found[node.number] = graph.copy(node, operands) if operands else node
     return found

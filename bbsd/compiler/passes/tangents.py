@@ -15,15 +15,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from math import isnan
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
 from bbsd.expression.graph import Graph, Level, Node, needed, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
     from bbsd.language.meaning.episode import Episode
-    from bbsd.language.meaning.names import Slot
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 VARYING = (Level.LANE, Level.EACH)
@@ -101,7 +101,7 @@ class _Rewriting:
         for node in every:
             if node.operation != "slot" or node.number in self.computed or node.level not in VARYING:
                 continue
-            slot = cast("Slot", node.data)
+            slot = node.slot
             start, after = _angle(self.before.start[slot]), self._angle(self.before.after[slot])
             if start is None or after is None or start.in_degrees is not after.in_degrees:
                 continue
@@ -109,7 +109,7 @@ class _Rewriting:
             if name not in kept:
                 kept[name] = _free(f"tangent_of_{name}", taken)
                 taken.add(kept[name])
-            tangent = self.graph.leaf("slot", (kept[name], robot, place), Kind.NUMBER, node.level)
+            tangent = self.graph.leaf("slot", Slot(kept[name], robot, place), Kind.NUMBER, node.level)
             found[slot] = Angle(tangent, after.in_degrees, start.acute and after.acute)
             self.angles[node.number] = found[slot]
         return found
@@ -195,9 +195,8 @@ class _Rewriting:
 
     def _kept(self, slot: Slot, node: Node) -> tuple[Slot, Node]:
         """A slot and its value as they are kept."""
-        if slot not in self.slots:
-            return slot, node
-        return cast("Slot", self.slots[slot].tangent.data), cast("Angle", _angle(node)).tangent
+        kept, angle = self.slots.get(slot), _angle(node)
+        return (slot, node) if kept is None or angle is None else (kept.tangent.slot, angle.tangent)
 
 
 def _free(wanted: str, taken: set[str]) -> str:

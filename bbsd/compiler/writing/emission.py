@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.compiler.passes.pairs import of_pairs
 from bbsd.compiler.writing.precedence import (
@@ -22,6 +22,7 @@ from bbsd.compiler.writing.precedence import (
 )
 from bbsd.compiler.writing.schedule import stages
 from bbsd.expression.graph import Level, Node, needed
+from bbsd.expression.node_data import RobotDraws, RobotGathers
 from bbsd.expression.operations import INFIX
 
 if TYPE_CHECKING:
@@ -48,10 +49,6 @@ STORED = frozenset({"slot", "table", "pick"})
 """What stands somewhere before a step is computed."""
 STEMS = {Level.CALL: "fixed", Level.STEP: "now", Level.ROBOT: "its"}
 """Of the names of values that mean nothing to the designer, by how often they change."""
-TOP_BIT = 1 << 63  # a literal from here on is uint64 in compiled code
-
-Gathered = tuple[int | tuple[int, ...], tuple[int, ...], tuple[int, ...]]
-"""Where an element of the constants is found: from a base, or each robot's, by strides of so many elements."""
 
 
 @dataclass(slots=True)
@@ -213,26 +210,25 @@ class Emitter:
         return f"{function}({', '.join(arguments)})"
 
     def _draw(self, node: Node, into: Block) -> str:
-        distribution, word = cast("tuple[str, int | tuple[int, ...]]", node.data)
-        if isinstance(word, tuple):
-            block, text = (
-                self.blocks.robot(into.stage),
-                self.loops.by_robot(hex(each | TOP_BIT) for each in word),
-            )
+        draw = node.data if isinstance(node.data, RobotDraws) else node.draw
+        if isinstance(draw, RobotDraws):
+            block, text = self.blocks.robot(into.stage), self.loops.by_robot(map(hex, draw.kernel_words))
         else:
-            block, text = self.blocks.step, hex(word | TOP_BIT)
+            block, text = self.blocks.step, hex(draw.kernel_word)
         if node.number not in block.names:
             block.names[node.number] = self.namer.numbered("draw")
             stream = self.call("fold", [text, self.call("word_of", [self.step])])
             block.lines.append(f"{block.names[node.number]} = {stream}")
         operands = [self._text(operand, into)[0] for operand in node.operands]
-        return self.call(distribution, [self.key, block.names[node.number], *operands])
+        return self.call(draw.distribution, [self.key, block.names[node.number], *operands])
 
     def _gather(self, node: Node, into: Block) -> str:
-        base, strides, lengths = cast("Gathered", node.data)
-        first = self.loops.by_robot(map(str, base)) if isinstance(base, tuple) else str(base)
-        terms = [(first, ATOM)]
-        for stride, length, index in zip(strides, lengths, node.operands, strict=True):
+        gather = node.data if isinstance(node.data, RobotGathers) else node.gather
+        if isinstance(gather, RobotGathers):
+            terms = [(self.loops.by_robot(map(str, gather.bases)), ATOM)]
+        else:
+            terms = [(str(gather.base), ATOM)]
+        for stride, length, index in zip(gather.strides, gather.lengths, node.operands, strict=True):
             place = self.call("clamp_index", [self._text(index, into)[0], str(length - 1)])
             terms.append(times(stride, (place, ATOM)))
         return f"constants[{sum_of(terms)[0]}]"

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING
 
 from bbsd.compiler.writing.precedence import ATOM, COMPARISON, Text, infix, number_text, sum_of, times
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import PairFolds, RobotIndices, RobotLiterals
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -44,15 +45,15 @@ class Loops:
             case "table" | "pick":
                 return self._of_robot(node, "robot"), ATOM
             case "so_far":
-                return self.function.read(self.folds[into.stage, cast("int", node.data)], node.kind)
+                return self.function.read(self.folds[into.stage, node.index], node.kind)
             case "theirs" if node.operands[0].operation in ("table", "pick"):
                 return self._of_other(node, into), ATOM
             case "theirs":
                 robot = "theirs", ATOM
             case "of":
-                robot = times(cast("int", node.data), ("stride", ATOM))
+                robot = times(node.index, ("stride", ATOM))
             case _:
-                robot = self._seen(cast("tuple[int, ...]", node.data), into, emitter), ATOM
+                robot = self._seen(node.holding(RobotIndices), into, emitter), ATOM
         (family,) = node.operands
         index, _ = sum_of([robot, ("lane", ATOM)])
         return self.function.read(self._array(family, emitter), family.kind, index)
@@ -83,7 +84,7 @@ class Loops:
 
     def _fold(self, node: Node, block: Block, emitter: Emitter) -> str:
         """Fold a family in the loop over robots that computes it."""
-        function, operation = self.function, cast("str", node.data)
+        function, operation = self.function, node.holding(str)
         value = emitter.repeatable(node.operands[0], block)
         array = self._new("over", node, emitter)
         so_far = function.read(array, node.kind)
@@ -97,7 +98,7 @@ class Loops:
 
     def _fold_among(self, node: Node, emitter: Emitter) -> str:
         """Fold for each robot what it sees of those that it looks at, in the loop over them."""
-        others, numbers = cast("tuple[bool, tuple[int, ...]]", node.data)
+        others, numbers = node.holding(PairFolds)
         stage = emitter.stage_of[node.number]
         block = emitter.blocks.pair(stage, others=others)
         folds = list(zip(numbers, node.operands[::2], node.operands[1::2], strict=True))
@@ -173,8 +174,8 @@ class Loops:
     def _of_robot(self, node: Node, robot: str) -> str:
         """A literal or a constant of the robot that a variable names."""
         if node.operation == "pick":
-            return f"constants[{self.by_robot(map(str, cast('tuple[int, ...]', node.data)), robot)}]"
-        values = [value for value, _ in cast("tuple[tuple[Any, str], ...]", node.data)]
+            return f"constants[{self.by_robot(map(str, node.holding(RobotIndices)), robot)}]"
+        values = [value for value, _ in node.holding(RobotLiterals)]
         texts = (number_text(value)[0] if node.kind is Kind.NUMBER else str(value) for value in values)
         return self.by_robot(texts, robot)
 

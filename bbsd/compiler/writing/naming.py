@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import keyword
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from bbsd.kernel import functions, memory, streams
-
-if TYPE_CHECKING:
-    from bbsd.language.meaning.names import Slot
 
 OWN = (
     "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "packed_tables",
@@ -45,10 +41,3 @@ class Namer:
         while f"{stem}_{number}" in self.taken:
             number += 1
         return self(f"{stem}_{number}")
-
-
-def slot_text(slot: Slot, robots: int) -> str:
-    """What a slot is called: `height_0` with several robots, `sonar_3` for an element."""
-    name, robot, place = slot
-    parts = [robot] if robot is not None and robots > 1 else []
-    return "_".join([name, *(str(part) for part in (*parts, *place))])

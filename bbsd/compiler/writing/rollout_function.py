@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import Detail, traced_definitions
 from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
@@ -12,10 +12,11 @@ from bbsd.compiler.writing.blocks import Block, Blocks
 from bbsd.compiler.writing.emission import Emitter
 from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.memory import Memory
-from bbsd.compiler.writing.naming import Namer, slot_text
+from bbsd.compiler.writing.naming import Namer
 from bbsd.compiler.writing.precedence import ATOM, COMPARISON, Text
 from bbsd.expression.graph import Level, Node, needed
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from bbsd.compiler.tables import TableShape
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.episode import Episode
-    from bbsd.language.meaning.names import Slot
 
 OWN = (Level.ROBOT, Level.EACH)
 """The levels of what each robot has of its own."""
@@ -74,7 +74,7 @@ class RolloutFunction:
 
     def robots_name(self, stem: str, robot: int) -> str:
         """A name for something of one robot."""
-        return slot_text((stem, robot, ()), self.robots)
+        return Slot(stem, robot).text(self.robots)
 
     def keep(self, wanted: str, kind: Kind = Kind.NUMBER, level: Level = Level.LANE) -> str:
         """An array of a value in every lane, or in every lane of each robot."""
@@ -144,14 +144,14 @@ class RolloutFunction:
 
     def slot_of(self, node: Node) -> str:
         """The array of a slot that is read."""
-        return self.slots[cast("Slot", node.data)]
+        return self.slots[node.slot]
 
     @cached_property
     def slots(self) -> dict[Slot, str]:
         """The arrays of the slots that a later step reads."""
-        read = {node.data: node.level for node in needed(self.outputs) if node.operation == "slot"}
+        read = {node.slot: node.level for node in needed(self.outputs) if node.operation == "slot"}
         return {
-            slot: self.keep(slot_text(slot, self.robots), node.kind, read[slot])
+            slot: self.keep(slot.text(self.robots), node.kind, read[slot])
             for slot, node in self.episode.after.items()
             if slot in read
         }
@@ -173,7 +173,7 @@ class RolloutFunction:
         """Names for nodes, the more telling one where a value means several things."""
         episode = self.episode
         return {
-            node.number: "_".join(part for part in (prefix, slot_text(slot, self.robots)) if part)
+            node.number: "_".join(part for part in (prefix, slot.text(self.robots)) if part)
             for prefix, group in (
                 ("acted", episode.acted),
                 ("", episode.definitions),
@@ -218,7 +218,7 @@ class RolloutFunction:
 
     def _constant(self, node: Node) -> str:
         if node.number not in self.call.names:
-            name = self.namer(self._constant_names[cast("int", node.data)])
+            name = self.namer(self._constant_names[node.index])
             self.call.lines.append(f"{name} = constants[{node.data}]")
             self.call.names[node.number] = name
         return self.call.names[node.number]

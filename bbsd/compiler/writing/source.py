@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.loop_fission import written
-from bbsd.compiler.writing.naming import slot_text
 from bbsd.compiler.writing.rollout_function import OWN, RolloutFunction, indented
 from bbsd.compiler.writing.schedule import Closing, closing
 from bbsd.compiler.writing.totals import DETAILED, Totals
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.passes.pipeline import Program
     from bbsd.compiler.tables import TableShape
     from bbsd.compiler.writing.emission import Emitter
-    from bbsd.language.meaning.names import Slot
+    from bbsd.expression.node_data import Slot
 
 ARGUMENTS = (
     "first", "last", "numbers", "keys", "individuals", "packed_tables", "tables", "table_offsets", "priorities",
@@ -142,7 +141,7 @@ def _after(function: RolloutFunction, emitter: Emitter, end: Closing) -> dict[Sl
     """What each slot that changes will hold, by names that stay true while slots are stored one after the other."""
     found = {}
     for slot, array in function.slots.items():
-        node, wanted = function.episode.after[slot], f"next_{slot_text(slot, function.robots)}"
+        node, wanted = function.episode.after[slot], f"next_{slot.text(function.robots)}"
         if node.operation == "slot" and node.data == slot:
             continue
         block = end.storing(own=function.is_own(array))

@@ -8,7 +8,6 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import Detail, checked_slots, traced_definitions
-from bbsd.compiler.writing.naming import slot_text
 from bbsd.compiler.writing.precedence import ATOM, sum_of, times
 from bbsd.compiler.writing.rollout_function import OWN
 from bbsd.expression.graph import value_of
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.compiler.writing.schedule import Closing
     from bbsd.expression.graph import Node
-    from bbsd.language.meaning.names import Slot
+    from bbsd.expression.node_data import Slot
 
 MOST_NESTED = 3
 """Sums of a line."""
@@ -71,7 +70,7 @@ class Totals:
         return {slot: self._count_of(slot) for slot in checked_slots(function.episode)}
 
     def _count_of(self, slot: Slot) -> str:
-        wanted = f"not_finite_{slot_text(slot, self.function.robots)}"
+        wanted = f"not_finite_{slot.text(self.function.robots)}"
         return self.function.keep(wanted, level=self.function.episode.after[slot].level)
 
     def start(self) -> list[list[str]]:

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import nan
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import LEAVES, Graph, Level, Node, evaluate, needed, rebuilt, value_of, whole_nodes
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
 from bbsd.kernel import streams
-from bbsd.kernel.functions import clamp_index
 from bbsd.language.field_types import expressions_in
 from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Mapping
+    from collections.abc import Mapping, Sequence
 
+    from bbsd.expression.node_data import Gather
     from bbsd.language.field_types import Expression, Nested
 
 GENERATION = "generation"
+GENERATION_SLOT = Slot(GENERATION)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,37 +57,20 @@ class Constants:
 
     def _is_static(self, leaf: Node) -> bool:
         if leaf.operation == "gather":
-            return all(self.scalars[place].literal for place in _places(leaf.data))
-        return leaf.operation == "constant" and self.scalars[cast("int", leaf.data)].literal
+            return all(self.scalars[place].literal for place in leaf.gather.places)
+        return leaf.operation == "constant" and self.scalars[leaf.index].literal
 
-    def _at_leaf(self, leaf: Node, operands: list[float]) -> float:
-        if leaf.operation == "constant":
-            return cast("float", value_of(self.scalars[cast("int", leaf.data)]))
-        base, strides, lengths = cast("Block", leaf.data)
-        clamped = [clamp_index(index, length - 1) for index, length in zip(operands, lengths, strict=True)]
-        place = base + sum(stride * index for stride, index in zip(strides, clamped, strict=True))
-        return cast("float", value_of(self.scalars[place]))
+    def _at_leaf(self, leaf: Node, indices: Sequence[float]) -> float:
+        return value_of(leaf.read(self.scalars, indices))
 
-    def whole(self, data: Hashable) -> bool:
+    def whole(self, data: int | Gather) -> bool:
         """Return whether a constant, or every constant that a gather may read, is certainly whole."""
-        places = [data] if isinstance(data, int) else _places(data)
+        places = [data] if isinstance(data, int) else data.places
         return all(self.wholes[place] for place in places)
 
 
-Block = tuple[int, tuple[int, ...], tuple[int, ...]]
-"""What a gather may read: the first place, and for each index a stride and a length."""
-
-
-def _places(data: Hashable) -> list[int]:
-    base, strides, lengths = cast("Block", data)
-    places = [base]
-    for stride, length in zip(strides, lengths, strict=True):
-        places = [place + stride * step for place in places for step in range(length)]
-    return places
-
-
 def _generation(node: Node, generation: int) -> float:
-    return float(generation) if node.data == GENERATION else nan
+    return float(generation) if node.data == GENERATION_SLOT else nan
 
 
 def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
@@ -103,7 +88,7 @@ def read_constants(
 ) -> Constants:
     """Evaluate the constants, with draws from the stream of (seed, the constant's name)."""
     bindings: dict[str, Binding] = {
-        GENERATION: Shared(graph.leaf("slot", GENERATION, Kind.NUMBER, Level.CALL)),
+        GENERATION: Shared(graph.leaf("slot", GENERATION_SLOT, Kind.NUMBER, Level.CALL)),
         **dict.fromkeys(unusable, Unusable()),
     }
     base = Scope(graph, bindings, findings)
@@ -117,7 +102,7 @@ def read_constants(
     ordered = {name: values[name] for name in written if name in values}
     scalars: list[Node] = []
     leaves = {name: _leaves(value, scalars, graph) for name, value in ordered.items()}
-    whole = whole_nodes(scalars, {GENERATION: True}, lambda _: False)
+    whole = whole_nodes(scalars, {GENERATION_SLOT: True}, lambda _: False)
     return Constants(ordered, tuple(scalars), leaves, tuple(whole[node.number] for node in scalars))
 
 
@@ -166,7 +151,7 @@ def _draw(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
         return node
     if not all(operand.literal for operand in operands):
         raise _DrawsWithGenerationError
-    distribution, word = cast("tuple[str, int]", node.data)
+    distribution, word = node.draw
     drawn = streams.DISTRIBUTIONS[distribution](key, word, *(value_of(operand) for operand in operands))
     return graph.truth(value=bool(drawn)) if node.kind is Kind.TRUTH else graph.number(drawn)
 

@@ -16,10 +16,11 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import KEY
+from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import Names, Slot, Stored, read_slot, read_slots, scalars_by_slot
+from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
 from bbsd.language.meaning.picture import Picture, elaborate_picture
 
@@ -169,7 +170,7 @@ def _slots_read(stored: Stored, names: Names) -> Stored:
     world = names.spec.environment.world
     return {
         name: tuple(
-            read_slot((name, None if name in world else robot, ()), value, names.graph)
+            read_slot(Slot(name, None if name in world else robot), value, names.graph)
             for robot, value in enumerate(values)
         )
         for name, values in stored.items()
@@ -183,7 +184,7 @@ def _decision(now: Stored, beginning: Moment, names: Names) -> Moment:
         for robot in names.robots if name not in names.unusable else ():
             if is_partition(sensor):
                 partition = beginning.partition(name, robot)
-                slot = names.graph.leaf("slot", (name, robot, ()), Kind.CELL, Level.LANE)
+                slot = names.graph.leaf("slot", Slot(name, robot), Kind.CELL, Level.LANE)
                 sensed.partitions[name, robot] = partition and Partition(partition.cells, slot)
             else:
                 value = beginning.value(name, robot)
@@ -286,7 +287,7 @@ def _picture(first: Stored, beginning: Moment, names: Names) -> Picture | None:
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
     world = names.spec.environment.world
     return {
-        (name, None if name in world else robot, ()): value
+        Slot(name, None if name in world else robot): value
         for name, values in stored.items()
         for robot, value in enumerate(values)
     }
@@ -299,7 +300,7 @@ def _slots_of_sensors(moment: Moment) -> dict[Slot, Node]:
         for robot in names.robots if name not in names.unusable else ():
             if is_partition(sensor):
                 partition = moment.partition(name, robot)
-                nodes |= {} if partition is None else {(name, robot, ()): partition.index}
+                nodes |= {} if partition is None else {Slot(name, robot): partition.index}
             else:
                 nodes |= scalars_by_slot(moment.value(name, robot), name, robot)
     return nodes

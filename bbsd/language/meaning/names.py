@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, Level, Node
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Definition, Findings, PerRobot, Scope, Shared, Unusable, Value
 
 if TYPE_CHECKING:
@@ -16,9 +17,6 @@ if TYPE_CHECKING:
 
 Stored = Mapping[str, tuple[Node, ...]]
 """The values of state (one a robot) and of the world (one) at some moment of a step."""
-
-Slot = tuple[str, int | None, tuple[int, ...]]
-"""What stores a value from one step to the next: a name, the robot (None: the world's), the position in a list."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +93,7 @@ def read_slots(
         return tuple(
             read_slots(name, robot, item, graph, (*position, index)) for index, item in enumerate(like)
         )
-    return read_slot((name, robot, position), like, graph)
+    return read_slot(Slot(name, robot, position), like, graph)
 
 
 def scalars_by_slot(
@@ -108,4 +106,4 @@ def scalars_by_slot(
             for index, item in enumerate(value)
             for slot, node in scalars_by_slot(item, name, robot, (*position, index)).items()
         }
-    return {(name, robot, position): value}
+    return {Slot(name, robot, position): value}

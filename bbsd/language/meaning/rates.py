@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Graph, Level, Node, needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import WHOLE
+from bbsd.expression.node_data import Slot
 from bbsd.expression.repetition import values_for
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared
 
@@ -43,8 +44,8 @@ def evaluate_rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapp
         "generations": Shared(graph.number(coevolution.generations)),
         "episodes": Shared(graph.number(learning.episodes)),
     }
-    generation = graph.leaf("slot", "generation", Kind.NUMBER, Level.CALL)
-    episode = graph.leaf("slot", "episode", Kind.NUMBER, Level.CALL)
+    generation = graph.leaf("slot", Slot("generation"), Kind.NUMBER, Level.CALL)
+    episode = graph.leaf("slot", Slot("episode"), Kind.NUMBER, Level.CALL)
     scope = Scope(graph, {**shared, "generation": Shared(generation)}, findings)
     path = ("design", "coevolution", "hard_mutation")
     hard = _node(coevolution.hard_mutation, scope, path)
@@ -75,7 +76,7 @@ def _probabilities(
 ) -> tuple[float, ...]:
     """Return the values for generations or episodes; report one that is no probability and return none."""
     nodes = needed([node])
-    unknown = {cast("str", leaf.data) for leaf in nodes if leaf.operation == "slot"} - {unit}
+    unknown = {leaf.slot.name for leaf in nodes if leaf.operation == "slot"} - {unit}
     if node.kind is Kind.UNKNOWN:
         return ()
     if unknown:

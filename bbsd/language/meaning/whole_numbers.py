@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import needed, whole_nodes
 from bbsd.expression.kinds import Kind
-from bbsd.language.meaning.constants import GENERATION
+from bbsd.language.meaning.constants import GENERATION_SLOT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Sequence
+    from collections.abc import Callable, Sequence
 
     from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Gather, Slot
     from bbsd.expression.scope import Findings
     from bbsd.language.meaning.constants import Constants
     from bbsd.language.meaning.episode import Episode
@@ -29,23 +30,23 @@ def report_fractions(episode: Episode | None, constants: Constants, findings: Fi
     is_whole_constant = cache(constants.whole)
     nodes = [node for *_, node in findings.wholes]
     slots = _whole_slots(episode, is_whole_constant) if episode else _slots_read(nodes)
-    whole = whole_nodes(nodes, {**slots, GENERATION: True}, is_whole_constant)
+    whole = whole_nodes(nodes, {**slots, GENERATION_SLOT: True}, is_whole_constant)
     for path, span, purpose, node in findings.wholes:
         if not whole[node.number]:
             message = f"{purpose} must be a whole number, and this need not be one"
             findings.tell(path, "BB064", message, span, "round it: floor(...) or round(...)")
 
 
-def _slots_read(nodes: Sequence[Node]) -> dict[Hashable, bool]:
-    return {node.data: True for node in needed(nodes) if node.operation == "slot"}
+def _slots_read(nodes: Sequence[Node]) -> dict[Slot, bool]:
+    return {node.slot: True for node in needed(nodes) if node.operation == "slot"}
 
 
-def _whole_slots(episode: Episode, is_whole_constant: Callable[[Hashable], bool]) -> dict[Hashable, bool]:
+def _whole_slots(episode: Episode, is_whole_constant: Callable[[int | Gather], bool]) -> dict[Slot, bool]:
     """Say of each slot whether it always holds a whole number: in the largest set that starts so and stays so."""
-    whole: dict[Hashable, bool] = {slot: node.kind is Kind.NUMBER for slot, node in episode.start.items()}
+    whole: dict[Slot, bool] = {slot: node.kind is Kind.NUMBER for slot, node in episode.start.items()}
     for _ in range(MAX_ROUNDS):
         nodes = whole_nodes([*episode.start.values(), *episode.after.values()], whole, is_whole_constant)
-        still_whole: dict[Hashable, bool] = {
+        still_whole: dict[Slot, bool] = {
             slot: whole[slot] and nodes[start.number] and nodes[episode.after[slot].number]
             for slot, start in episode.start.items()
         }

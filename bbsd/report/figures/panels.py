@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from bbsd.evaluation import Trace
-    from bbsd.language.meaning.names import Slot
+    from bbsd.expression.node_data import Slot
     from bbsd.language.models import Spec
 
     Lines = dict[str, list[float]]

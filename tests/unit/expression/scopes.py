@@ -6,6 +6,7 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Graph, Level, Node, evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import Mistake
+from bbsd.expression.node_data import Slot
 from bbsd.expression.parsing import parse
 from bbsd.expression.scope import Definition, Findings, PerRobot, Scope, Shared, Unusable, Value
 
@@ -18,11 +19,11 @@ def scope(robot: int | None = 0, *, draws: bool = False) -> Scope:
     kinds = {"x": Kind.NUMBER, "ok": Kind.TRUTH, "k": Kind.NUMBER}
 
     def stored(name: str, robot: int) -> Node:
-        return graph.leaf("slot", (name, robot), kinds[name], Level.LANE)
+        return graph.leaf("slot", Slot(name, robot), kinds[name], Level.LANE)
 
     def sonar(robot: int) -> Value:
         return tuple(
-            graph.leaf("slot", ("sonar", robot, place), Kind.NUMBER, Level.LANE) for place in range(4)
+            graph.leaf("slot", Slot("sonar", robot, (place,)), Kind.NUMBER, Level.LANE) for place in range(4)
         )
 
     names = {
@@ -43,8 +44,7 @@ def scope(robot: int | None = 0, *, draws: bool = False) -> Scope:
 
 def value_at(node: Node) -> Any:
     def leaf(node: Node, _operands: list[Any]) -> Any:
-        assert isinstance(node.data, tuple)
-        name, robot, *place = node.data
+        name, robot, place = node.slot
         return 10.0 * robot + place[0] if name == "sonar" else VALUES[name][robot]
 
     return evaluate([node], leaf)[0]

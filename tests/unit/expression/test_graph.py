@@ -17,12 +17,13 @@ from bbsd.expression.graph import (
     whole_nodes,
 )
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 FLOATS = st.floats(allow_nan=True)
 
 
 def slot(graph: Graph, name: str, kind: Kind = Kind.NUMBER) -> Node:
-    return graph.leaf("slot", name, kind, Level.LANE)
+    return graph.leaf("slot", Slot(name), kind, Level.LANE)
 
 
 def test_equal_values_are_one_node() -> None:
@@ -106,7 +107,7 @@ def test_a_deep_graph_is_no_deep_recursion() -> None:
 def test_whole_numbers_are_inferred(operation: str, operands: str, data: int | None, whole: bool) -> None:
     graph = Graph()
     node = graph.apply(operation, *(slot(graph, name) for name in operands), data=data)
-    assert whole_nodes([node], {"n": True, "x": False}, lambda _: False)[node.number] is whole
+    assert whole_nodes([node], {Slot("n"): True, Slot("x"): False}, lambda _: False)[node.number] is whole
 
 
 def test_a_graph_has_a_largest_size(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,7 @@ import pytest
 
 from bbsd.expression.graph import Graph, Level, evaluate
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 from bbsd.expression.repetition import values_for
 
 
@@ -11,7 +12,7 @@ def graph():
 
 
 def leaf(graph):
-    return graph.leaf("slot", "generation", Kind.NUMBER, Level.CALL)
+    return graph.leaf("slot", Slot("generation"), Kind.NUMBER, Level.CALL)
 
 
 def expressions(graph):

@@ -6,6 +6,7 @@ from bbsd.compiler.passes.families import CircularError, Families
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.expression.graph import Graph, Level, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 ROBOTS = range(3)
 
@@ -16,7 +17,7 @@ def graph():
 
 
 def slot(graph, name, robot, kind=Kind.NUMBER):
-    return graph.leaf("slot", (name, robot, ()), kind, Level.LANE)
+    return graph.leaf("slot", Slot(name, robot), kind, Level.LANE)
 
 
 def slots(graph, name):

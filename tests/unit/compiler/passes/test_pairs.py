@@ -13,6 +13,7 @@ from bbsd.compiler.passes.pairs import (
 )
 from bbsd.expression.graph import Graph, Level
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 ROBOTS = range(5)
 
@@ -23,7 +24,7 @@ def graph():
 
 
 def x(graph, robot, name="x"):
-    return graph.leaf("slot", (name, robot, ()), Kind.NUMBER, Level.LANE)
+    return graph.leaf("slot", Slot(name, robot), Kind.NUMBER, Level.LANE)
 
 
 def of_others(make):
@@ -70,11 +71,11 @@ def test_what_a_robot_has_whomever_it_looks_at_is_its_own(graph):
 
 
 def test_what_the_one_looked_at_has_is_theirs(graph):
-    assert of_others(lambda _, j: x(graph, j)).are_theirs(robot_of_slot("x", ()))
-    assert of_team(lambda _, j: x(graph, j)).are_theirs(robot_of_slot("x", ()))
-    assert not of_others(lambda _, j: x(graph, j, "y")).are_theirs(robot_of_slot("x", ()))
-    assert not of_others(lambda i, _: x(graph, i)).are_theirs(robot_of_slot("x", ()))
-    assert not of_others(lambda _, j: graph.number(j)).are_theirs(robot_of_slot("x", ()))
+    assert of_others(lambda _, j: x(graph, j)).are_theirs(robot_of_slot(("x", ())))
+    assert of_team(lambda _, j: x(graph, j)).are_theirs(robot_of_slot(("x", ())))
+    assert not of_others(lambda _, j: x(graph, j, "y")).are_theirs(robot_of_slot(("x", ())))
+    assert not of_others(lambda i, _: x(graph, i)).are_theirs(robot_of_slot(("x", ())))
+    assert not of_others(lambda _, j: graph.number(j)).are_theirs(robot_of_slot(("x", ())))
 
 
 def test_what_is_the_same_whoever_looks_is_known_by_robot(graph):

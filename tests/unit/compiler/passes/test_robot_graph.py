@@ -3,6 +3,7 @@ import pytest
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 
 @pytest.fixture
@@ -11,7 +12,7 @@ def robots():
 
 
 def slot(robots, name, robot):
-    return robots.graph.leaf("slot", (name, robot, (1,)), Kind.NUMBER, Level.LANE)
+    return robots.graph.leaf("slot", Slot(name, robot, (1,)), Kind.NUMBER, Level.LANE)
 
 
 def test_slots_stand_for_all_robots_or_for_the_world(robots):

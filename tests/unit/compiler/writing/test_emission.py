@@ -12,6 +12,7 @@ from bbsd.compiler.writing.naming import Namer
 from bbsd.compiler.writing.precedence import ATOM
 from bbsd.expression.graph import Graph, Level, evaluate
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 from bbsd.kernel import functions
 from tests.unit.problems import episode_of, problem_of
 
@@ -23,11 +24,11 @@ def emitter(hints=None):
     """An emitter of one loop over lanes, in which nothing crosses to another one."""
     blocks = Blocks(Block(Level.CALL), looped=False)
     loops = Loops(function=None)
-    return Emitter(Namer(), loops, lambda node: (node.data, ATOM), "key", "step", hints or {}, blocks)
+    return Emitter(Namer(), loops, lambda node: (node.slot.name, ATOM), "key", "step", hints or {}, blocks)
 
 
 def slot(graph, name, level=Level.LANE):
-    return graph.leaf("slot", name, Kind.NUMBER, level)
+    return graph.leaf("slot", Slot(name), Kind.NUMBER, level)
 
 
 def written(outputs, hints=None):
@@ -85,7 +86,7 @@ def values(draw):
 
 @given(values())
 def test_source_means_what_the_graph_means(outputs):
-    expected = evaluate(outputs, lambda node, _: VALUES[node.data])
+    expected = evaluate(outputs, lambda node, _: VALUES[node.slot.name])
     assert all(map(same, run(outputs), expected))
 
 
@@ -148,7 +149,7 @@ def test_long_expressions_are_broken_up():
         value = graph.apply("+", graph.apply("*", value, slot(graph, "b")), graph.number(number))
     lines, [text] = written([value])
     assert max(map(len, [*lines, text])) < 120
-    assert run([value]) == evaluate([value], lambda node, _: VALUES[node.data])
+    assert run([value]) == evaluate([value], lambda node, _: VALUES[node.slot.name])
 
 
 @pytest.mark.parametrize("depth", [49, 50, 51, 99, 100, 101, 5000])

@@ -8,6 +8,7 @@ from bbsd.compiler.passes.robot_loops import loop_over_robots
 from bbsd.compiler.writing.rollout_function import RolloutFunction
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 from tests.unit.compiler.robots import moving
 
 
@@ -24,11 +25,11 @@ def robots():
 
 
 def slot(robots, name, kind=Kind.NUMBER):
-    return robots.graph.leaf("slot", (name, 0, ()), kind, Level.EACH)
+    return robots.graph.leaf("slot", Slot(name, 0), kind, Level.EACH)
 
 
 def wind(robots):
-    return robots.graph.leaf("slot", ("wind", None, ()), Kind.NUMBER, Level.LANE)
+    return robots.graph.leaf("slot", Slot("wind"), Kind.NUMBER, Level.LANE)
 
 
 def plus(robots, node, value):

@@ -2,7 +2,7 @@ import keyword
 
 import pytest
 
-from bbsd.compiler.writing.naming import Namer, slot_text
+from bbsd.compiler.writing.naming import Namer
 from bbsd.kernel import functions, memory, streams
 from tests.unit.problems import episode_of, problem_of
 
@@ -42,20 +42,6 @@ def test_what_a_rollout_calls_is_not_given_out():
     names = (function.__name__ for function in known)
     called = [name for name in names if not name.startswith("_")]
     assert [Namer()(name) for name in called] == [f"{name}_" for name in called]
-
-
-@pytest.mark.parametrize(
-    ("slot", "robots", "text"),
-    [
-        (("height", 0, ()), 3, "height_0"),
-        (("height", 0, ()), 1, "height"),
-        (("wind", None, ()), 3, "wind"),
-        (("sonar", 1, (4,)), 2, "sonar_1_4"),
-        (("sonar", 0, (4, 0)), 1, "sonar_4_0"),
-    ],
-)
-def test_slots_are_called_by_name_robot_and_place(slot, robots, text):
-    assert slot_text(slot, robots) == text
 
 
 @pytest.mark.parametrize(

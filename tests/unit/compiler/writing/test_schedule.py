@@ -10,6 +10,7 @@ from bbsd.compiler.writing.naming import Namer
 from bbsd.compiler.writing.schedule import closing, last, stages
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Slot
 
 DECIDED = 3
 
@@ -20,11 +21,11 @@ def robots():
 
 
 def x(robots):
-    return robots.graph.leaf("slot", ("x", 0, ()), Kind.NUMBER, Level.EACH)
+    return robots.graph.leaf("slot", Slot("x", 0), Kind.NUMBER, Level.EACH)
 
 
 def wind(robots):
-    return robots.graph.leaf("slot", ("wind", None, ()), Kind.NUMBER, Level.LANE)
+    return robots.graph.leaf("slot", Slot("wind"), Kind.NUMBER, Level.LANE)
 
 
 def step(robots):
