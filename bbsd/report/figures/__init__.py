@@ -1,4 +1,4 @@
-"""Figures as files, the same bytes for the same data."""
+"""Figures, written to files; the same data gives the same bytes."""
 
 from bbsd.report.figures.curves import draw_curves
 from bbsd.report.figures.episode import draw_episode

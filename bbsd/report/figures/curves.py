@@ -1,4 +1,4 @@
-"""Fitness over the generations, as in the paper's Fig. 14, and the diversity of the pools."""
+"""The figure of a design: fitness over the generations, as in the paper's Fig. 14, and diversity of the pools."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("mean", "mean of the agents", {"color": color(0), "linewidth": 1.8}),
     ("lifetime", "mean lifetime fitness", {"color": color(0), "linestyle": (0, (4, 2))}),
 )
-"""Solid is the fitness (14), dashed is over whole lifetimes, as in the paper."""
+"""Key in the metrics, label and style. As in the paper, solid is the fitness (14), dashed that of whole lifetimes."""
 
 
 def draw_curves(metrics: Sequence[Line], path: Path) -> None:
-    """Draw the lines of `metrics.jsonl`: fitness above, diversity of each behavior's pool below.
+    """Draw the lines of `metrics.jsonl`: fitness above, and the diversity of each behavior's pool below.
 
-    With several runs a line is the mean of the runs, and each run's mean fitness is drawn faintly. Raises
-    FigureError for a kind of file that cannot be drawn, and OSError where it cannot be written.
+    With several runs, a curve is their mean, and the mean fitness of each run is drawn faintly. Raises FigureError
+    for an unknown kind of file, and OSError if the file cannot be written.
     """
     with panels_in_file(path, 7.5, [3.4, 1.8]) as (fitness, diversity):
         _draw_fitness(fitness, metrics)
@@ -59,12 +59,12 @@ def _draw_diversity(panel: Axes, metrics: Sequence[Line]) -> None:
 def _points(
     metrics: Sequence[Line], keys: tuple[str, ...], run: int | None = None
 ) -> tuple[list[int], list[float]]:
-    """Return generations and values of one run, or their means over all runs that have come so far."""
-    found: dict[int, list[float]] = {}
+    """Return generations and values of one run, or the means over the runs that have reached each generation."""
+    by_generation: dict[int, list[float]] = {}
     for line in metrics:
         if run in {None, line["run"]}:
-            found.setdefault(line["generation"], []).append(_value(line, keys))
-    return list(found), [sum(values) / len(values) for values in found.values()]
+            by_generation.setdefault(line["generation"], []).append(_value(line, keys))
+    return list(by_generation), [sum(values) / len(values) for values in by_generation.values()]
 
 
 def _value(line: Line, keys: tuple[str, ...]) -> float:

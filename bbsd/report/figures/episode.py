@@ -1,4 +1,4 @@
-"""One episode of a team over its steps, as in the paper's Fig. 22."""
+"""The figure of an episode over its steps, as in the paper's Fig. 22."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Trace
     from bbsd.language.models import Spec
 
-PANEL, ROW = 1.35, 0.3
-"""Heights in inches: of a value, and of a behavior."""
+PANEL_HEIGHT, ROW_HEIGHT = 1.35, 0.3
+"""Heights in inches: of the panel of a value, and of the row of a behavior."""
 
 
 def draw_episode(trace: Trace, spec: Spec, path: Path) -> None:
-    """Draw the robots' states, what all of them sensed alike, and which behavior controlled each robot.
+    """Draw the values of an episode after each step, and the behavior in control of each robot.
 
-    The values are those after each step: a panel for each state with a line for each robot, one for each
-    value of the world and for each sensor that is a number and the same for all robots; at most eight
-    panels, in the spec's order. A spec with a view is drawn from above, with these panels beside it. Raises
-    FigureError for a kind of file that cannot be drawn, and OSError where it cannot be written.
+    A state has a panel with a line for each robot; a value of the world, and a sensor that is a number and equal
+    for all robots, have a panel with one line. There are at most eight panels of values, in the spec's order. If the
+    spec has a view, the episode is drawn from above, with these panels beside it. Raises FigureError for an unknown
+    kind of file, and OSError if the file cannot be written.
     """
     if trace.scene is None:
         _draw_lines_only(trace, spec, path)
@@ -34,11 +34,11 @@ def draw_episode(trace: Trace, spec: Spec, path: Path) -> None:
 
 
 def _draw_lines_only(trace: Trace, spec: Spec, path: Path) -> None:
-    shown = dict(list(panels_of(trace, spec).items())[:MAX_PANELS])
+    values = dict(list(panels_of(trace, spec).items())[:MAX_PANELS])
     behaviors = behavior_rows(trace, spec)
-    heights = [PANEL] * len(shown) + [0.7 + ROW * len(behaviors)]
+    heights = [PANEL_HEIGHT] * len(values) + [0.7 + ROW_HEIGHT * len(behaviors)]
     with panels_in_file(path, 8.0, heights) as panels:
-        for panel, (name, lines) in zip(panels, shown.items(), strict=False):
+        for panel, (name, lines) in zip(panels, values.items(), strict=False):
             draw_lines(panel, trace, name, lines)
         draw_control(panels[-1], trace, behaviors, [color(robot) for robot in range(trace.robots)])
         legend(panels[0])

@@ -1,4 +1,4 @@
-"""Where figures go, and the one style that they are drawn in."""
+"""Files of figures, their panels, and the style that all figures share."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase
 
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31", "#000000")
-"""Okabe and Ito's colors, that can be told apart without seeing red or green; but for the faint yellow."""
+"""The colors of Okabe and Ito, distinguishable for people with color blindness; their faint yellow is replaced."""
 
 METADATA: dict[str, dict[str, Any]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},
     ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }
-"""What to leave out of a file, so that it depends on the data only."""
+"""Entries that are left out of a file, so that its bytes depend only on the data."""
 
 STYLE: dict[str, Any] = {
     "svg.hashsalt": "bbsd",
@@ -44,13 +44,13 @@ STYLE: dict[str, Any] = {
 
 
 class FigureError(UsageError):
-    """Why a figure cannot be drawn, and what to do about it."""
+    """A figure cannot be drawn; the message says why and what to do."""
 
 
 def require_figure(path: Path) -> None:
-    """Raise FigureError where a figure could not be written to such a file, whatever it shows."""
+    """Raise FigureError if no figure can be drawn into a file of this kind."""
     if path.suffix.lower() not in METADATA:
-        raise FigureError(f"{path}: a figure is a {', '.join(METADATA)} file")
+        raise FigureError(f"{path}: the name of a figure's file ends with one of {', '.join(METADATA)}")
     if find_spec("matplotlib") is None:
         raise FigureError('figures are drawn by matplotlib, which is not installed: pip install "bbsd[plot]"')
 
@@ -62,9 +62,9 @@ def color(index: int) -> str:
 
 @contextmanager
 def panels_in_file(path: Path, width: float, heights: list[float]) -> Iterator[list[Axes]]:
-    """Give panels below each other that share the horizontal axis; write the file when they are drawn.
+    """Yield panels below each other with a common horizontal axis; write them to a file at the end.
 
-    Width and heights are inches. Raises FigureError where that cannot be done.
+    Width and heights are in inches. Raises FigureError if no figure can be drawn.
     """
     with figure_in_file(path, width, sum(heights)) as figure:
         yield stack_panels(figure, heights)
@@ -72,7 +72,7 @@ def panels_in_file(path: Path, width: float, heights: list[float]) -> Iterator[l
 
 @contextmanager
 def figure_in_file(path: Path, width: float, height: float) -> Iterator[Figure]:
-    """Give a figure of that size in inches, and write the file when it is drawn; FigureError as `drawn`."""
+    """Yield a figure, its size in inches; write it to a file at the end. Raises FigureError if none can be drawn."""
     require_figure(path)
     from matplotlib import style
     from matplotlib.figure import Figure
@@ -84,7 +84,7 @@ def figure_in_file(path: Path, width: float, height: float) -> Iterator[Figure]:
 
 
 def stack_panels(figure: FigureBase, heights: list[float]) -> list[Axes]:
-    """Return panels below each other that share the horizontal axis."""
+    """Return panels below each other with a common horizontal axis."""
     panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
     return list(panels[:, 0])
 
@@ -95,11 +95,11 @@ def _save(figure: Figure, path: Path) -> None:
 
 
 def legend(panel: Axes) -> None:
-    """Put the names of a panel's lines, if they have any, to its right, where they hide nothing."""
+    """Put the names of a panel's lines, if they have any, to its right, where they cover nothing."""
     if panel.get_legend_handles_labels()[1]:
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def marker(n_points: int) -> str:
-    """Return how points are marked: only where there are so few that their line could not be seen."""
+    """Return the marker of points, '' unless there are so few of them that their line would be invisible."""
     return "." if n_points < 4 else ""

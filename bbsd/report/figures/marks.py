@@ -1,4 +1,4 @@
-"""What a view marks: a lamp, some food, an evader; where it was, and its name where there is room."""
+"""Marks of a view, such as a lamp, food or an evader: their places, trails and names."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
 
 FILL = "#f0e442"
-TRAIL = 1.0
-"""Width in points."""
-NEAR, LETTER = 0.02, 0.016
-"""How far a label is from what it names, and how wide its letters are, in parts of the width shown."""
+TRAIL_WIDTH = 1.0
+"""In points."""
+LABEL_DISTANCE, LETTER_WIDTH = 0.02, 0.016
+"""The distance of a label from its mark, and the width of its letters, as shares of the width shown."""
 
 
 def draw_mark(panel: Axes, name: str, track: Floats, occupied: Floats, limits: Limits) -> None:
-    """Draw where a mark is at the end, and how it came there: a trail if it moves, else the places it rested at.
+    """Draw a mark at its last place, with a trail if it moves often, else with the places where it rested before.
 
-    `track` is (n_moments, 2 or 3); the name is written where it is far from the points that are `taken`.
+    `track` is (n_moments, 2 or 3). The name is written far from the `occupied` points (n, 2).
     """
     points, last = track[:, :2], track[-1]
     moved = _moved(points)
     is_moving = moved.mean() > 0.5
     if is_moving:
-        panel.plot(*points.T, color=FAINT, lw=TRAIL, ls=(0, (3, 1.5)), zorder=1.5)
+        panel.plot(*points.T, color=FAINT, lw=TRAIL_WIDTH, ls=(0, (3, 1.5)), zorder=1.5)
     earlier = points[:1] if is_moving else points[:-1][moved]
     panel.plot(*drawable(earlier).T, ls="", marker="D", ms=6, mfc=PAPER, mec=FAINT, zorder=OVER_PATHS)
     if np.isfinite(last[:2]).all():
@@ -43,14 +43,14 @@ def draw_mark(panel: Axes, name: str, track: Floats, occupied: Floats, limits: L
 
 
 def _moved(points: Floats) -> npt.NDArray[np.bool_]:
-    """Return for each step whether it ended elsewhere; what stays not finite has not moved."""
+    """Return for each step whether the point moved (n_moments - 1,); one that is never finite does not."""
     before, after = np.nan_to_num(points[:-1]), np.nan_to_num(points[1:])
-    found: npt.NDArray[np.bool_] = (before != after).any(axis=1)
-    return found
+    is_moved: npt.NDArray[np.bool_] = (before != after).any(axis=1)
+    return is_moved
 
 
 def _write(panel: Axes, text: str, point: Floats, occupied: Floats, limits: Limits) -> None:
-    """Write beside a point, on the side with most room."""
+    """Write a text beside a point, on the side with most room."""
     sides = [(side, above) for above in (1, -1) for side in (1, -1)]
     side, above = max(sides, key=partial(_room, point, len(text), occupied, limits))
     panel.annotate(
@@ -67,9 +67,9 @@ def _write(panel: Axes, text: str, point: Floats, occupied: Floats, limits: Limi
 
 
 def _room(point: Floats, length: int, occupied: Floats, limits: Limits, sides: tuple[int, int]) -> float:
-    """Return how far a label to a side of a point is from all that is taken; -1 where it crosses a border."""
-    along = np.linspace(NEAR, NEAR + LETTER * length, 5)
-    off = np.stack([along, np.full(5, NEAR)], axis=1) * sides * limits.signs * limits.width
+    """Return the distance of a label on a side of a point from occupied points; -1 if it crosses a border."""
+    along = np.linspace(LABEL_DISTANCE, LABEL_DISTANCE + LETTER_WIDTH * length, 5)
+    off = np.stack([along, np.full(5, LABEL_DISTANCE)], axis=1) * sides * limits.signs * limits.width
     label = point + off
     low, high = np.sort(limits, axis=1).T
     if not ((label > low) & (label < high)).all():

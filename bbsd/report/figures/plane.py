@@ -1,4 +1,4 @@
-"""What of the plane an episode is drawn on, and what stands in it."""
+"""The plane that an episode is drawn on: its limits and its surroundings."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ if TYPE_CHECKING:
 
 INK, FAINT, SOLID, PAPER = "#333333", "#777777", "#c4c4c4", "#ffffff"
 MARGIN = 0.03
-"""Around all that is shown, in parts of its larger side."""
+"""The margin around everything, as a share of the larger side."""
 OVER_PATHS = 4
-"""The layer of what must not be hidden by a path."""
+"""The drawing order (zorder) of what no path may cover."""
 
 
 class Limits(NamedTuple):
-    """What of the plane is shown: each axis runs from its first number to its second."""
+    """The part of the plane that is shown; each axis runs from its first number to its second."""
 
     x: tuple[float, float]
     y: tuple[float, float]
 
     @property
     def width(self) -> float:
-        """How far it is from the left to the right."""
+        """The width shown."""
         return abs(self.x[1] - self.x[0])
 
     @property
@@ -39,35 +39,35 @@ class Limits(NamedTuple):
 
     @property
     def signs(self) -> tuple[float, float]:
-        """For each axis 1 if it grows to the right or upwards, else -1."""
+        """For each axis, 1 if it grows to the right or upward, else -1."""
         return (1.0 if self.x[0] < self.x[1] else -1.0), (1.0 if self.y[0] < self.y[1] else -1.0)
 
 
 def limits_of(scene: Scene) -> Limits:
-    """Return the limits that show everything: what is around, and where anything was."""
+    """Return the limits that show everything: the surroundings, and all places of robots and marks."""
     corners = _corners(scene)
     around = [scene.circles[:, :2] + side * scene.circles[:, 2:] for side in (-1, 1)]
     points = drawable(np.concatenate([corners, *around, *_tracks(scene)]))
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
     margin = MARGIN * float(max(high - low)) or 1.0
     axes = [(float(a) - margin, float(b) + margin) for a, b in zip(low, high, strict=True)]
-    turned = corners[0] > corners[1] if len(corners) else (False, False)
-    x, y = (axis[::-1] if is_turned else axis for axis, is_turned in zip(axes, turned, strict=True))
+    reversals = corners[0] > corners[1] if len(corners) else (False, False)
+    x, y = (axis[::-1] if is_reversed else axis for axis, is_reversed in zip(axes, reversals, strict=True))
     return Limits(x, y)
 
 
 def occupied(scene: Scene) -> Floats:
-    """Return the points at which robots and marks ever were, and circles are; (n, 2)."""
+    """Return all places of robots and marks, and the centers of circles (n, 2)."""
     return drawable(np.concatenate([*_tracks(scene), scene.circles[:, :2]]))
 
 
 def drawable(points: Floats) -> Floats:
-    """Return those points that can be drawn."""
+    """Return the points whose coordinates are finite."""
     return points[np.isfinite(points).all(axis=-1)]
 
 
 def draw_surroundings(panel: Axes, scene: Scene) -> None:
-    """Draw the walls around, the grid, and circles."""
+    """Draw the outer walls, the grid and the circles."""
     from matplotlib.patches import Rectangle
 
     corners = _corners(scene)
@@ -79,16 +79,16 @@ def draw_surroundings(panel: Axes, scene: Scene) -> None:
         draw_circle(panel, circle, fc=SOLID, ec=FAINT, lw=0.8)
 
 
-def draw_circle(panel: Axes, place: Floats, **style: Any) -> None:  # noqa: ANN401 - as matplotlib has them
-    """Draw the radius of a place, if it has one, to scale."""
+def draw_circle(panel: Axes, place: Floats, **style: Any) -> None:  # noqa: ANN401 - as matplotlib types styles
+    """Draw a place with a radius as a circle to scale; one without is not drawn."""
     from matplotlib.patches import Circle
 
     if len(place) > 2 and np.isfinite(place).all():
         panel.add_patch(Circle((place[0], place[1]), max(place[2], 0), **style))
 
 
-def halo(width: float = 0.0) -> Any:  # noqa: ANN401 - what matplotlib takes for an effect
-    """Return an effect that sets off a line or a text from what it passes over; a line's ends stay as they are."""
+def halo(width: float = 0.0) -> Any:  # noqa: ANN401 - as matplotlib types effects
+    """Return an effect that outlines a line or a text, but not the ends of a line, to set it off from what is below."""
     from matplotlib.patheffects import withStroke
 
     return withStroke(linewidth=width + 1.6, foreground=PAPER, capstyle="butt")
@@ -99,9 +99,9 @@ def _tracks(scene: Scene) -> list[Floats]:
 
 
 def _corners(scene: Scene) -> Floats:
-    """Return the corners of what is around, at bottom left and top right; none where nothing is said, (0, 2)."""
-    found = np.empty((0, 2)) if scene.area is None else scene.area.reshape(2, 2)
+    """Return the bottom left and top right corners of the surroundings (2, 2), or none (0, 2) if they are unknown."""
+    corners = np.empty((0, 2)) if scene.area is None else scene.area.reshape(2, 2)
     if scene.area is None and scene.grid is not None:
         rows, columns = scene.grid.shape
-        found = np.array([[-0.5, rows - 0.5], [columns - 0.5, -0.5]])
-    return found if np.isfinite(found).all() else np.empty((0, 2))
+        corners = np.array([[-0.5, rows - 0.5], [columns - 0.5, -0.5]])
+    return corners if np.isfinite(corners).all() else np.empty((0, 2))

@@ -1,4 +1,4 @@
-"""An episode from above: what is around, what is marked, and each robot's path in the colors of its behaviors."""
+"""The figure of an episode from above: surroundings, marks, and the robots' paths, with panels beside it."""
 
 from __future__ import annotations
 
@@ -22,57 +22,57 @@ if TYPE_CHECKING:
     from bbsd.language.models import Spec
     from bbsd.language.view import View
 
-PANEL, ROW = 0.68, 0.24
-"""Least heights in inches beside a scene: of a value, and of a behavior."""
-SCENE, BESIDE = 5.2, 4.0
+MIN_PANEL_HEIGHT, ROW_HEIGHT = 0.68, 0.24
+"""Heights in inches: of the panel of a value at least, and of the row of a behavior."""
+SCENE_WIDTH, PANELS_WIDTH = 5.2, 4.0
 """Widths in inches: of a scene, and of the panels beside it."""
-LOWEST, HIGHEST, AROUND, LEGEND_LINE = 2.5, 7.0, 0.7, 0.2
-"""Heights in inches: a scene's at least and at most, its title and axis, a line of its legend."""
+MIN_HEIGHT, MAX_HEIGHT, TITLE_HEIGHT, LEGEND_LINE = 2.5, 7.0, 0.7, 0.2
+"""Heights in inches: of a scene at least and at most, of its title and axis, of a line of its legend."""
 NOBODY_COLOR = "#9a9a9a"
-MAX_NAMED = 8
-"""Robots at most whose lines are: of more nobody could."""
+MAX_ROBOTS_IN_LEGEND = 8
+"""The number of robots up to which their lines have a legend; nobody could distinguish more."""
 LEGEND_COLUMNS = 3
 
 
 def draw_with_scene(trace: Trace, spec: Spec, scene: Scene, path: Path) -> None:
-    """Draw the scene on the left, and what it does not show on the right; colors are those of the behaviors."""
-    seen, behaviors, order = _names_seen(spec.view), behavior_rows(trace, spec), [*spec.behaviors]
-    unseen = [(name, lines) for name, lines in panels_of(trace, spec).items() if name not in seen]
+    """Draw the scene on the left, and values that it does not show on the right; colors stand for behaviors."""
+    in_view, behaviors, order = _names_in_view(spec.view), behavior_rows(trace, spec), [*spec.behaviors]
+    values = [(name, lines) for name, lines in panels_of(trace, spec).items() if name not in in_view]
     colors = {name: NOBODY_COLOR if name == NOBODY else color(order.index(name)) for name in behaviors}
-    heights = _heights(scene, len(unseen[:MAX_PANELS]), len(behaviors))
-    with figure_in_file(path, SCENE + BESIDE, sum(heights)) as figure:
-        left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[SCENE, BESIDE])[0]
+    heights = _heights(scene, len(values[:MAX_PANELS]), len(behaviors))
+    with figure_in_file(path, SCENE_WIDTH + PANELS_WIDTH, sum(heights)) as figure:
+        left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=[SCENE_WIDTH, PANELS_WIDTH])[0]
         draw_scene(left.subplots(), trace, scene, colors)
         *panels, last = stack_panels(right, heights)
-        for panel, (name, lines) in zip(panels, unseen, strict=False):
+        for panel, (name, lines) in zip(panels, values, strict=False):
             draw_lines(panel, trace, name, lines, in_gray=True)
         draw_control(last, trace, behaviors, colors)
-        if trace.robots <= MAX_NAMED and panels:
+        if trace.robots <= MAX_ROBOTS_IN_LEGEND and panels:
             legend(panels[0])
 
 
 def _heights(scene: Scene, n_values: int, n_behaviors: int) -> list[float]:
-    """Return the heights of the panels beside a scene, in inches; together at least as high as the scene."""
-    last = 0.6 + ROW * n_behaviors
-    whole = min(max(SCENE * limits_of(scene).shape, LOWEST), HIGHEST) + AROUND
-    whole = max(whole + LEGEND_LINE * legend_lines(n_behaviors), PANEL * n_values + last)
+    """Return the heights in inches of the panels beside a scene, together at least as high as the scene."""
+    last = 0.6 + ROW_HEIGHT * n_behaviors
+    whole = min(max(SCENE_WIDTH * limits_of(scene).shape, MIN_HEIGHT), MAX_HEIGHT) + TITLE_HEIGHT
+    whole = max(whole + LEGEND_LINE * legend_lines(n_behaviors), MIN_PANEL_HEIGHT * n_values + last)
     return [*[(whole - last) / max(n_values, 1)] * n_values, last if n_values else whole]
 
 
-def _names_seen(view: View | None) -> set[str]:
-    """Return the names that stand alone in a view: what they hold can be seen in the scene."""
+def _names_in_view(view: View | None) -> set[str]:
+    """Return the names that a view consists of: their values are visible in the scene."""
     written = [view.at, *([view.heading] if view.heading else ()), *view.marks.values()] if view else []
-    trees = [each.tree for value in written for each in expressions_in(value)]
+    trees = [expression.tree for value in written for expression in expressions_in(value)]
     return {tree.name for tree in trees if isinstance(tree, Name)}
 
 
 def legend_lines(n_behaviors: int) -> int:
-    """Return of how many lines the legend is, with one entry for a behavior and two for the ends of paths."""
+    """Return the number of lines of the legend, which has an entry for each behavior, the start and the end."""
     return -(-(n_behaviors + 2) // LEGEND_COLUMNS)
 
 
 def draw_scene(panel: Axes, trace: Trace, scene: Scene, colors: Mapping[str, str]) -> None:
-    """Draw an episode from above; `colors` are those of whatever controlled, in the order of the legend."""
+    """Draw an episode from above; `colors` of the behaviors and of nobody are in the order of the legend."""
     limits = limits_of(scene)
     panel.set(xlim=limits.x, ylim=limits.y, aspect="equal", anchor="N")
     panel.set_title(f"from above, {len(trace.steps):,} step{'s' * (len(trace.steps) > 1)}")

@@ -13,7 +13,7 @@ from bbsd.report.figures import draw_episode
 from bbsd.report.figures.marks import _moved, _room, draw_mark
 from bbsd.report.figures.paths import _angle, draw_ends, stretches_of
 from bbsd.report.figures.plane import Limits, limits_of
-from bbsd.report.figures.scene import _names_seen, legend_lines
+from bbsd.report.figures.scene import _names_in_view, legend_lines
 
 
 def scene(places=((0, 0), (4, 3)), **changes):
@@ -100,8 +100,8 @@ def test_a_label_has_no_room_across_a_border_nor_where_something_is():
 
 
 def test_what_a_view_shows_by_its_name_alone_needs_no_panel(spec):
-    assert _names_seen(spec.view) == {"x", "height", "w"}
-    assert _names_seen(None) == set()
+    assert _names_in_view(spec.view) == {"x", "height", "w"}
+    assert _names_in_view(None) == set()
 
 
 def test_a_scene_shows_paths_marks_and_control_in_the_same_colors(seen, spec, tmp_path):
