@@ -1,1 +1,1 @@
-"""A spec: what may be written, how it is read, what it means, and what can be wrong with it."""
+"""The language of specs: its models, and how a spec is read, checked and given its meaning."""

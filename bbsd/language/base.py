@@ -1,4 +1,4 @@
-"""What all parts of a spec have in common."""
+"""The base class of all parts of a spec, and keys that are kept and ignored."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin
 from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
 
 FREE = "x-"
-"""What the keys begin with that are kept and ignored."""
+"""The beginning of keys that are kept and ignored."""
 
 
 def without_free_keys(value: object) -> object:
-    """A mapping without its free keys; nothing under a key is an empty mapping."""
+    """Return a mapping without its free keys, an empty one for nothing, and anything else as it is."""
     if value is None:
         return {}
     if not isinstance(value, dict):
@@ -28,7 +28,7 @@ Entries = Annotated[dict[K, V], BeforeValidator(without_free_keys)]
 class Part(BaseModel):
     """A part of a spec: frozen, strict, every unknown key an error but those beginning with `x-`.
 
-    Nothing under a key that holds a mapping or a list is an empty one.
+    A key without a value holds an empty mapping or list, where it may hold one.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
@@ -36,10 +36,10 @@ class Part(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _without_free_keys(cls, data: Any) -> Any:  # noqa: ANN401 - whatever the file holds
-        found = without_free_keys(data)
-        if not isinstance(found, dict):
-            return found
-        return {key: value for key, value in found.items() if value is not None or not cls._holds_block(key)}
+        items = without_free_keys(data)
+        if not isinstance(items, dict):
+            return items
+        return {key: value for key, value in items.items() if value is not None or not cls._holds_block(key)}
 
     @classmethod
     def _holds_block(cls, key: str) -> bool:
@@ -48,7 +48,7 @@ class Part(BaseModel):
 
 
 def _is_block(annotation: object) -> bool:
-    """Whether a key holds a mapping, a list or a part, in one of its ways to be written."""
+    """Return whether one of the forms of a key's value is a mapping, a list or a part."""
     if isinstance(annotation, type) and not get_args(annotation):
         return issubclass(annotation, Part)
     return get_origin(annotation) in (dict, list) or any(map(_is_block, get_args(annotation)))

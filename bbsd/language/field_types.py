@@ -1,4 +1,4 @@
-"""Values as a designer writes them: expressions, names and cells, checked as pydantic reads them."""
+"""Types of the models' fields: expressions, names and cells as a designer writes them, checked by pydantic."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SIGNATURE = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\)\s*)?")
 
 @dataclass(frozen=True, slots=True)
 class Expression:
-    """An expression as written, and its tree. Equal when the text is."""
+    """An expression as written, and its tree; equal to another of the same text."""
 
     text: str
     tree: Expr
@@ -38,7 +38,7 @@ class Expression:
 
 
 def expression(value: object) -> Expression:
-    """Read a scalar of a spec as an expression; mistakes carry their code and span to the diagnosis."""
+    """Read a scalar of a spec as an expression; raise PydanticCustomError with the mistake in it."""
     if isinstance(value, Expression):
         return value
     text = scalar_text(value)
@@ -57,18 +57,18 @@ Nested = Expression | tuple["Nested", ...]
 
 
 def nested(value: object) -> Nested:
-    """Read a scalar or a list of a spec as expressions; raises ValidationError with all mistakes in it."""
+    """Read a scalar or a list of a spec as expressions; raise ValidationError with all mistakes in it."""
     errors: list[InitErrorDetails] = []
-    found = _nested(value, (), errors)
+    expressions = _read_nested(value, (), errors)
     if errors:
         raise ValidationError.from_exception_data("list", errors)
-    return found
+    return expressions
 
 
-def _nested(value: object, at: tuple[int, ...], errors: list[InitErrorDetails]) -> Nested:
-    """An expression or a nested list of them; mistakes are collected with their place in it."""
+def _read_nested(value: object, at: tuple[int, ...], errors: list[InitErrorDetails]) -> Nested:
+    """Return an expression or a nested list of them; append mistakes with their position in it to `errors`."""
     if isinstance(value, list | tuple):
-        return tuple(_nested(item, (*at, place), errors) for place, item in enumerate(value))
+        return tuple(_read_nested(item, (*at, index), errors) for index, item in enumerate(value))
     try:
         return expression(value)
     except PydanticCustomError as error:
@@ -77,14 +77,14 @@ def _nested(value: object, at: tuple[int, ...], errors: list[InitErrorDetails]) 
 
 
 def expressions_in(value: Nested) -> list[Expression]:
-    """All expressions that a value is written with."""
+    """Return all expressions of a value, in order."""
     if isinstance(value, tuple):
         return [expression for item in value for expression in expressions_in(item)]
     return [value]
 
 
 def scalar_text(value: object) -> str | None:
-    """The text of a YAML scalar as an expression or a cell would write it; None for anything else."""
+    """Return a YAML scalar as the text of an expression or a cell; None for anything else."""
     match value:
         case str():
             return value
@@ -96,7 +96,7 @@ def scalar_text(value: object) -> str | None:
 
 
 def kind_of(value: object) -> str:
-    """What a plain value is, in the words of a message."""
+    """Return what a plain value is, in the words of a message."""
     match value:
         case None:
             return "nothing"
@@ -114,32 +114,32 @@ def kind_of(value: object) -> str:
 
 
 def is_name(text: str) -> bool:
-    """Whether a text can name something in a spec."""
+    """Return whether a text can name something in a spec."""
     return NAME.match(text) is not None and text not in RESERVED
 
 
 def is_value_name(text: str) -> bool:
-    """Whether a text can name something that expressions use."""
+    """Return whether a text can name something that expressions use."""
     return is_name(text) and text not in UNREADABLE
 
 
 def shape(value: object) -> str:
-    """Tag a value that is written in one of two ways; no key of a spec looks like a tag."""
+    """Return a tag for a value as a mapping or in another form; no key of a spec looks like a tag."""
     return "<other>" if isinstance(value, str | int | float | list) or value is None else "<mapping>"
 
 
 def name(value: str) -> str:
-    """A name of the spec's own."""
+    """Return a name of the spec's own; raise PydanticCustomError for a text that cannot be one."""
     return _checked_name(value, is_name)
 
 
 def value_name(value: str) -> str:
-    """A name of the spec's own that expressions can use."""
+    """Return a name of the spec's own that expressions can use; raise PydanticCustomError for another text."""
     return _checked_name(value, is_value_name)
 
 
 def signature(key: str) -> tuple[str, ...]:
-    """The name of a definition and of its parameters; nothing where its key is not written as one."""
+    """Return the names of a definition and of its parameters; none where its key is not written as one."""
     match = SIGNATURE.fullmatch(key)
     if match is None:
         return ()
@@ -148,15 +148,15 @@ def signature(key: str) -> tuple[str, ...]:
 
 
 def definition_key(value: str) -> str:
-    """A name, or a name with its parameters."""
+    """Return a definition's key, a name or a name with parameters; raise PydanticCustomError for another text."""
     names = signature(value)
     if names and all(map(is_value_name, names)) and len(set(names)) == len(names):
         return value
     raise _bad_name(value, "cannot be a definition's name; write name or name(a, b), in small letters")
 
 
-def _checked_name(value: str, is_right: Callable[[str], bool]) -> str:
-    if is_right(value):
+def _checked_name(value: str, is_valid: Callable[[str], bool]) -> str:
+    if is_valid(value):
         return value
     if not NAME.match(value):
         raise _bad_name(value, "cannot be a name; names are small letters, digits and _, a letter first")
@@ -168,7 +168,7 @@ def _bad_name(value: str, reason: str) -> PydanticCustomError:
 
 
 def cell(value: object) -> str:
-    """The label of a cell, as written or as YAML made of it."""
+    """Return the label of a cell from its text, or from the number or truth that YAML read."""
     text = scalar_text(value)
     if text is None:
         raise PydanticCustomError(

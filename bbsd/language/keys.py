@@ -1,4 +1,4 @@
-"""Which keys a spec may have where."""
+"""The keys that a spec may have in each of its blocks."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def fields_at(path: Path) -> Mapping[str, FieldInfo] | None:
-    """The keys that may stand below a path; None where they are not the language's own."""
+    """Return the keys that may stand below a path; None where they are not the language's own."""
     match path:
         case ("behaviors", _):
             return Behavior.model_fields
@@ -30,32 +30,32 @@ def fields_at(path: Path) -> Mapping[str, FieldInfo] | None:
 
 
 def field_at(path: Path) -> FieldInfo | None:
-    """The key that a path ends with, if it is one of the language's own."""
+    """Return the key that a path ends with; None where it is not one of the language's own."""
     return (fields_at(path[:-1]) or {}).get(str(path[-1])) if path else None
 
 
 def blocks_with(key: str) -> list[str]:
-    """The blocks that have a key of this name, as paths; a spec itself is the top level."""
+    """Return the blocks that have a key of this name, as paths; a spec itself is the top level."""
     blocks: list[tuple[str, type[Part]]] = [
         ("the top level", Spec),
         ("a behavior", Behavior),
         ("a rule", When),
     ]
-    found = []
+    names = []
     while blocks:
         name, part = blocks.pop(0)
-        found += [name] if key in part.model_fields else []
-        above = "" if part is Spec else f"{name}."
+        names += [name] if key in part.model_fields else []
+        prefix = "" if part is Spec else f"{name}."
         blocks += [
-            (f"{above}{below}", inner)
-            for below, field in part.model_fields.items()
+            (f"{prefix}{inner_key}", inner)
+            for inner_key, field in part.model_fields.items()
             for inner in _parts(field.annotation)
         ]
-    return found
+    return names
 
 
 def _parts(annotation: object) -> Iterator[type[Part]]:
-    """The parts of a spec that a key may hold, but not those in a mapping or a list of its own."""
+    """Yield the parts of a spec that a key may hold itself, not in a mapping or a list."""
     if isinstance(annotation, type):
         if issubclass(annotation, Part):
             yield annotation

@@ -1,4 +1,4 @@
-"""Specs that extend others: which files those are, what they say together, and where each value stands."""
+"""Specs that extend others: the files, the data that they give together, and the place of each value."""
 
 from __future__ import annotations
 
@@ -21,22 +21,25 @@ if TYPE_CHECKING:
 
 EXTENDS = "extends"
 MAX_FILES = 10
+"""Files that extend each other in a chain."""
 MAX_CHARACTERS = 1_000_000
-MAX_NODES = 50_000
+"""Characters of all files of a spec together."""
+MAX_EXTENDED_NODES = 50_000
+"""Keys and values of a spec together with what it extends."""
 ADVICE = "a spec extends a file in its own folder or below it"
 
 
 class _NoBaseError(Exception):
-    """Why a file cannot be extended."""
+    """A file cannot be extended; the message says why."""
 
 
 @dataclass(frozen=True)
 class Lineage:
-    """A spec's document and those it extends, each before the one that it extends."""
+    """A spec's document and those that it extends, each before the one that it extends."""
 
     documents: tuple[Document, ...]
     mistakes: tuple[Diagnosis, ...]
-    """All that is wrong with the files as files."""
+    """Mistakes of the files themselves: in their YAML, or in what they extend."""
 
     @property
     def source(self) -> Source:
@@ -56,37 +59,37 @@ class Lineage:
 
     @cached_property
     def data(self) -> dict[str, Data]:
-        """What the files say together."""
-        found: dict[str, Data] = {}
+        """The data that the files give together."""
+        data: dict[str, Data] = {}
         for document in reversed(self.documents):
-            found = overlaid(found, _own(document))
-        return found
+            data = overlay(data, _without_extends(document))
+        return data
 
     @cached_property
     def flat(self) -> Document:
-        """The same as one document: the last file's text with the changes that the others make."""
-        found = self.documents[-1]
+        """The files as one document: the last file's text with the changes that the others make."""
+        flat = self.documents[-1]
         for document in reversed(self.documents[:-1]):
-            wanted = overlaid(found.data, _own(document))
-            text = replace_blocks(found, dict(differences(found.data, wanted)))
-            found = read(Source(self.source.file, text))
-        return found
+            data = overlay(flat.data, _without_extends(document))
+            text = replace_blocks(flat, dict(differences(flat.data, data)))
+            flat = read(Source(self.source.file, text))
+        return flat
 
     def place(
         self, path: DataPath, offset: int | None = None, on_key: bool = False, length: int = 1
     ) -> Place:
-        """The place of a value in the first file that has it, as a document's `place`."""
+        """Return the place of a value in the first file that has it, as a document's `place`."""
         holding = (document for document in self.documents if _holds(document.data, path))
         return next(holding, self.documents[0]).place(path, offset, on_key, length)
 
     def error(self, diagnoses: Sequence[Diagnosis]) -> SpecError:
-        """What is wrong with the files, with their texts."""
+        """Return an error that shows diagnoses in the texts of the files."""
         others = {document.source.file: document.source for document in self.documents[1:]}
         return SpecError(diagnoses, self.source, others)
 
 
-def lineage(source: Source) -> Lineage:
-    """Read a spec and all that it extends; raises SpecError where one of those is no text."""
+def read_lineage(source: Source) -> Lineage:
+    """Read a spec and all that it extends; raise SpecError where one of those is no text."""
     documents = [read(source)]
     mistakes: list[Diagnosis] = []
     while documents[-1].data.get(EXTENDS) is not None and not mistakes:
@@ -94,11 +97,11 @@ def lineage(source: Source) -> Lineage:
             documents.append(read(_base(documents)))
         except _NoBaseError as error:
             mistakes.append(Diagnosis("BB029", str(error), documents[-1].place((EXTENDS,)), ADVICE))
-    found = Lineage(tuple(documents), tuple(_sorted([*_diagnoses(documents), *mistakes])))
-    if len(documents) > 1 and _size(found.data) > MAX_NODES:
-        message = f"with what it extends, a spec has more than {MAX_NODES} keys and values"
-        return Lineage(found.documents, (Diagnosis("BB011", message, documents[0].place((EXTENDS,))),))
-    return found
+    files = Lineage(tuple(documents), tuple(_sorted([*_diagnoses(documents), *mistakes])))
+    if len(documents) > 1 and _size(files.data) > MAX_EXTENDED_NODES:
+        message = f"with what it extends, a spec has more than {MAX_EXTENDED_NODES} keys and values"
+        return Lineage(files.documents, (Diagnosis("BB011", message, documents[0].place((EXTENDS,))),))
+    return files
 
 
 def _diagnoses(documents: Sequence[Document]) -> Iterator[Diagnosis]:
@@ -107,63 +110,61 @@ def _diagnoses(documents: Sequence[Document]) -> Iterator[Diagnosis]:
 
 
 def _sorted(diagnoses: Sequence[Diagnosis]) -> list[Diagnosis]:
-    return sorted(diagnoses, key=lambda each: each.place)
+    return sorted(diagnoses, key=lambda diagnosis: diagnosis.place)
 
 
 def _base(documents: Sequence[Document]) -> Source:
-    """Read the file that the last document extends; raises _NoBaseError, SpecError."""
+    """Read the file that the last document extends; raise _NoBaseError or SpecError where that is not possible."""
     document = documents[-1]
-    written = document.data[EXTENDS]
-    if not isinstance(written, str) or not written:
-        raise _NoBaseError(
-            f"extends needs the name of a file, not {kind_of(written) if written else 'nothing'}"
-        )
-    path = Path(document.source.file).parent / written
+    name = document.data[EXTENDS]
+    if not isinstance(name, str) or not name:
+        raise _NoBaseError(f"extends needs the name of a file, not {kind_of(name) if name else 'nothing'}")
+    path = Path(document.source.file).parent / name
     try:
-        _require_allowed(path, written, [Path(each.source.file) for each in documents])
+        _require_allowed(path, name, [Path(document.source.file) for document in documents])
     except (
         OSError,
         ValueError,
         RuntimeError,
     ) as error:  # a name too long, a null character, a circle of links
-        raise _NoBaseError(f'the file "{written}" cannot be read: {error}') from None
+        raise _NoBaseError(f'the file "{name}" cannot be read: {error}') from None
     source = Source.read(path)
-    if sum(len(each.source.text) for each in documents) + len(source.text) > MAX_CHARACTERS:
+    if sum(len(document.source.text) for document in documents) + len(source.text) > MAX_CHARACTERS:
         raise _NoBaseError("with what it extends, the spec has more than 1 MB")
     return source
 
 
-def _require_allowed(path: Path, written: str, files: Sequence[Path]) -> None:
-    """Refuse what lies outside of the folder, links followed, what is no file, circles and long chains."""
+def _require_allowed(path: Path, name: str, files: Sequence[Path]) -> None:
+    """Raise _NoBaseError for a path outside of the folder (links followed) or without a file, circles, long chains."""
     folder, target = files[-1].parent, path.resolve()
     if not target.is_relative_to(folder.resolve()):
-        raise _NoBaseError(f'the file "{written}" lies outside of the spec\'s folder')
+        raise _NoBaseError(f'the file "{name}" lies outside of the spec\'s folder')
     if not target.exists():
-        known = (each.relative_to(folder).as_posix() for each in folder.glob("*.y*ml"))
-        raise _NoBaseError(f'there is no file "{written}"{did_you_mean(written, known)}')
+        present = (file.relative_to(folder).as_posix() for file in folder.glob("*.y*ml"))
+        raise _NoBaseError(f'there is no file "{name}"{did_you_mean(name, present)}')
     if not target.is_file():
-        raise _NoBaseError(f'"{written}" is not a file')
+        raise _NoBaseError(f'"{name}" is not a file')
     if target in [file.resolve() for file in files]:
-        raise _NoBaseError(f'the file "{written}" extends itself' + " in a circle" * (len(files) > 1))
+        raise _NoBaseError(f'the file "{name}" extends itself' + " in a circle" * (len(files) > 1))
     if len(files) == MAX_FILES:
         raise _NoBaseError(f"more than {MAX_FILES} files extend each other")
 
 
-def overlaid(base: dict[str, Data], over: dict[str, Data]) -> dict[str, Data]:
+def overlay(base: dict[str, Data], over: dict[str, Data]) -> dict[str, Data]:
     """Lay a mapping over another, level by level, the base's keys first; null takes a key of the base away."""
-    found = dict(base)
+    merged = dict(base)
     for key, value in over.items():
         below = base.get(key)
         if value is None and key in base:
-            del found[key]
+            del merged[key]
         elif isinstance(below, dict) and isinstance(value, dict):
-            found[key] = overlaid(below, value)
+            merged[key] = overlay(below, value)
         else:
-            found[key] = value
-    return found
+            merged[key] = value
+    return merged
 
 
-def _own(document: Document) -> dict[str, Data]:
+def _without_extends(document: Document) -> dict[str, Data]:
     return {key: value for key, value in document.data.items() if key != EXTENDS}
 
 
@@ -178,5 +179,5 @@ def _holds(data: Data, path: DataPath) -> bool:
 def _size(data: Data) -> int:
     """Count values and keys."""
     if isinstance(data, dict):
-        return 1 + sum(1 + _size(each) for each in data.values())
+        return 1 + sum(1 + _size(value) for value in data.values())
     return 1 + sum(map(_size, data)) if isinstance(data, list) else 1

@@ -1,4 +1,4 @@
-"""A spec as read: the manual of the language, one class a block, one sentence a key."""
+"""The model of a spec, and the manual of the language: one class for each block, one sentence for each key."""
 
 from __future__ import annotations
 

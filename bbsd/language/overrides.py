@@ -1,4 +1,4 @@
-"""Values given on the command line, PATH=VALUE, set in the plain data of a spec before it is validated."""
+"""Values given on the command line as PATH=VALUE: set in the plain data of a spec before it is validated."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ARGUMENT = re.compile(r"(?P<path>[^.\[\]=]+(?:\.[^.\[\]=]+|\[\d{1,6}\])*)=(?P<va
 
 @dataclass(frozen=True, slots=True)
 class Override:
-    """One argument as read: where it sets what, and the document in which its value keeps its place."""
+    """An argument as read: the path that it sets, the value, and the document that knows the value's place."""
 
     path: Path
     value: Data
@@ -36,24 +36,24 @@ class Override:
     line: int
 
     def place(self, below: Path, offset: int | None, *, on_key: bool, length: int) -> Place:
-        """The place of what stands in the value, as a document's `place`."""
+        """Return the place of something in the value, as a document's `place`."""
         (key,) = self.document.data
         return self.document.place((key, *below), offset, on_key, length)
 
 
 def overrides_source(arguments: Sequence[str]) -> Source:
-    """The arguments as a text to show mistakes in: each begins a line."""
+    """Return the arguments as a text to show mistakes in: each begins a line."""
     return Source(FILE, "\n".join(arguments))
 
 
 def read_overrides(arguments: Sequence[str]) -> tuple[Override, ...]:
-    """Read arguments; raises SpecError with all that cannot be read."""
+    """Read arguments; raise SpecError with all that cannot be read."""
     lines = accumulate((argument.count("\n") + 1 for argument in arguments), initial=1)
-    found = [_read(argument, line) for argument, line in zip(arguments, lines, strict=False)]
-    diagnoses = [each for item in found for each in (item if isinstance(item, tuple) else ())]
+    items = [_read(argument, line) for argument, line in zip(arguments, lines, strict=False)]
+    diagnoses = [diagnosis for item in items if isinstance(item, tuple) for diagnosis in item]
     if diagnoses:
         raise SpecError(diagnoses, overrides_source(arguments))
-    return tuple(item for item in found if isinstance(item, Override))
+    return tuple(item for item in items if isinstance(item, Override))
 
 
 def _read(argument: str, line: int) -> Override | tuple[Diagnosis, ...]:
@@ -69,13 +69,13 @@ def _read(argument: str, line: int) -> Override | tuple[Diagnosis, ...]:
     if document.diagnoses:
         return document.diagnoses
     segments = list(SEGMENT.finditer(match["path"]))
-    path = tuple(int(each["index"]) if each["index"] else each["key"] for each in segments)
-    columns = tuple(each.start("index" if each["index"] else "key") + 1 for each in segments)
+    path = tuple(int(segment["index"]) if segment["index"] else segment["key"] for segment in segments)
+    columns = tuple(segment.start("index" if segment["index"] else "key") + 1 for segment in segments)
     return Override(path, document.data[key], document, columns, line)
 
 
 def with_overrides(data: Data, overrides: Sequence[Override], arguments: Sequence[str]) -> Data:
-    """The data with values set, in order; raises SpecError with all paths that lead nowhere."""
+    """Return the data with values set, in order; raise SpecError with all paths that lead nowhere."""
     data, diagnoses = deepcopy(data), []
     for override in overrides:
         diagnosis = _set(data, override)
@@ -87,19 +87,19 @@ def with_overrides(data: Data, overrides: Sequence[Override], arguments: Sequenc
 
 
 def _set(data: Data, override: Override) -> Diagnosis | None:
-    """Set one value, making the mappings on its way that the language knows; null deletes."""
-    if override.path[0] == "extends":  # what it says was read already
+    """Set one value, and mappings above it that the language knows; null deletes; return a mistake in the path."""
+    if override.path[0] == "extends":  # its file was read already
         place = Place(FILE, override.line, override.columns[0], len("extends"))
         return Diagnosis("BB028", "extends cannot be set", place, "write it in a spec of its own")
-    *way, last = override.path
-    for depth, segment in enumerate(way):
+    *parents, last = override.path
+    for depth, segment in enumerate(parents):
         if not _is_known(data, override.path[: depth + 1]):
             return _nothing_there(data, override, depth)
         if isinstance(data, dict) and data.get(str(segment)) is None:
             data[str(segment)] = {}
         data = child(data, segment)
     if not _is_known(data, override.path):
-        return _nothing_there(data, override, len(way))
+        return _nothing_there(data, override, len(parents))
     if isinstance(data, list):
         data[int(last) : int(last) + 1] = [] if override.value is None else [deepcopy(override.value)]
     elif isinstance(data, dict) and override.value is None:
@@ -110,7 +110,7 @@ def _set(data: Data, override: Override) -> Diagnosis | None:
 
 
 def _is_known(data: Data, path: Path) -> bool:
-    """Whether the path's last segment is in the data, or a key of the language that could be."""
+    """Return whether the path's last segment is in the data, or a key of the language that could be."""
     return has(data, path[-1]) or (isinstance(data, dict) and path[-1] in (fields_at(path[:-1]) or {}))
 
 
@@ -123,5 +123,5 @@ def _nothing_there(data: Data, override: Override, depth: int) -> Diagnosis:
         return Diagnosis(
             "BB028", f"there is no item [{segment}]{where}", place, f"it has {count}, counted from 0"
         )
-    known = [*(data if isinstance(data, dict) else ()), *(fields_at(parent) or ())]
-    return Diagnosis("BB028", f'there is no "{segment}"{where}{did_you_mean(segment, known)}', place)
+    keys = [*(data if isinstance(data, dict) else ()), *(fields_at(parent) or ())]
+    return Diagnosis("BB028", f'there is no "{segment}"{where}{did_you_mean(segment, keys)}', place)

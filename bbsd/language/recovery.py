@@ -1,4 +1,4 @@
-"""What is left of a spec without its mistakes of form, so that the mistakes of meaning in the rest can be told too."""
+"""A spec without its mistakes of form, so that mistakes of meaning elsewhere in it can be reported too."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ if TYPE_CHECKING:
     from bbsd.text import Data
 
 UNKNOWN: Final = "stands_for_a_mistake"
-"""An expression, or a name, about which nothing is said."""
+"""An expression, or a name, in whose use no mistake is reported."""
 ANY: Final = "*"
-ROUNDS = 4
+MAX_MENDINGS = 4
+"""Times that a spec is mended and validated again: mending one mistake of form may uncover another."""
 
 
 class _HopelessError(Exception):
-    """So much is missing that whatever would be said of the rest would only follow from it."""
+    """So much is missing that mistakes elsewhere would only follow from it."""
 
 
 class _Mark:
@@ -60,12 +61,12 @@ STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
     ("view",): DELETE,
     ("reward",): {UNKNOWN: 0},
 }
-"""What is put in the place of a wrong value, by its path; what is not listed is deleted."""
+"""What replaces a wrong value, by its path; values at other paths are deleted."""
 
 
 @dataclass(frozen=True, slots=True)
 class Recovered:
-    """A spec with stand-ins, names about which nothing is to be said, and codes of what may only follow."""
+    """A spec with stand-ins, names whose use is not reported, and codes of mistakes that may only follow."""
 
     spec: Spec
     broken: frozenset[str]
@@ -73,12 +74,12 @@ class Recovered:
 
 
 def recover(data: Data, errors: Sequence[ErrorDetails]) -> Recovered | None:
-    """What is left of a spec without what is wrong with it; None where that says nothing."""
+    """Return a spec with stand-ins for its mistakes of form; None where too much is missing."""
     broken, dependent = {UNKNOWN}, set[str]()
-    for _ in range(ROUNDS):
+    for _ in range(MAX_MENDINGS):
         mended = deepcopy(data)
         for error in errors:
-            path = _blamed(error, data)
+            path = _path_blamed(error, data)
             broken |= names_lost(error) | _names_below(error)
             dependent |= _dependent(path)
             try:
@@ -92,19 +93,19 @@ def recover(data: Data, errors: Sequence[ErrorDetails]) -> Recovered | None:
     return None
 
 
-def _blamed(error: ErrorDetails, data: Data) -> Path:
+def _path_blamed(error: ErrorDetails, data: Data) -> Path:
     path = path_of(error, data)
     return (*path, error["loc"][-1]) if error["type"] == "missing" else path
 
 
 def _names_below(error: ErrorDetails) -> set[str]:
-    """The names that stood below a key that was not expected."""
-    below = error["input"] if error["type"] == "extra_forbidden" else ()
-    return {str(name) for name in below} if isinstance(below, dict | list) else set()
+    """Return the names below a key that was not expected."""
+    names = error["input"] if error["type"] == "extra_forbidden" else ()
+    return {str(name) for name in names} if isinstance(names, dict | list) else set()
 
 
 def _dependent(path: Path) -> set[str]:
-    """Mistakes that may only follow from what is wrong at a path."""
+    """Return the codes of mistakes that may only follow from one at a path."""
     match path:
         case ("environment", "robots"):
             return {"BB057", "BB059"}
@@ -120,34 +121,34 @@ def _dependent(path: Path) -> set[str]:
 
 
 def _mend(data: Data, path: Path, error: str) -> None:
-    """Put into `data` what stands for a wrong value, or take a wrong key away."""
-    place, value = _replacement(path)
+    """Put a stand-in for a wrong value into `data`, or take a wrong key away."""
+    target, value = _replacement(path)
     if value is HOPELESS and error not in WRONG_KEYS:
         raise _HopelessError
     if error in WRONG_KEYS and path[2:3] != ("rules",):
-        place, value = path, DELETE
-    parent = _child(data, place[:-1])
+        target, value = path, DELETE
+    parent = _value_at(data, target[:-1])
     if isinstance(parent, dict) and isinstance(value, _Mark):
-        parent.pop(str(place[-1]), None)
+        parent.pop(str(target[-1]), None)
     elif isinstance(parent, dict):
-        parent[str(place[-1])] = deepcopy(cast("Data", value))
+        parent[str(target[-1])] = deepcopy(cast("Data", value))
     elif isinstance(parent, list):
-        parent[int(place[-1])] = deepcopy(cast("Data", value))
+        parent[int(target[-1])] = deepcopy(cast("Data", value))
 
 
-def _child(data: Data, path: Path) -> Data:
-    return _child(child(data, path[0]), path[1:]) if path else data
+def _value_at(data: Data, path: Path) -> Data:
+    return _value_at(child(data, path[0]), path[1:]) if path else data
 
 
 def _replacement(path: Path) -> tuple[Path, Data | _Mark]:
-    """The longest listed start of a path, and what is put there."""
+    """Return the longest start of a path that has a stand-in, and the stand-in."""
     for length in range(len(path), 0, -1):
         start = path[:length]
         for pattern, value in STAND_INS.items():
-            if len(pattern) == length and all(map(_fits, pattern, start)):
+            if len(pattern) == length and all(map(_matches, pattern, start)):
                 return start, value
     return path, DELETE
 
 
-def _fits(wanted: str, segment: str | int) -> bool:
-    return wanted in (ANY, segment)
+def _matches(pattern: str, segment: str | int) -> bool:
+    return pattern in (ANY, segment)

@@ -1,4 +1,4 @@
-"""Plain data to a spec; what is wrong with its form, in a designer's words."""
+"""From plain data to a spec, or to its mistakes of form in a designer's words."""
 
 from __future__ import annotations
 
@@ -25,14 +25,15 @@ if TYPE_CHECKING:
     from bbsd.text import Data
 
 MAX_ERRORS = 1000
-MAX_SHOWN = 40
+MAX_QUOTED = 40
+"""Characters of a wrong text that a message quotes."""
 
 LocatedMistake = tuple["Path", Mistake]
-"""A mistake and where in the spec it is."""
+"""A mistake and its path in the spec."""
 
 
 def validate(data: Data) -> tuple[Spec | None, list[ErrorDetails]]:
-    """The spec that plain data are, or all that pydantic has to say against it."""
+    """Return the spec that plain data are, or pydantic's errors."""
     try:
         return Spec.model_validate(data), []
     except ValidationError as error:
@@ -40,24 +41,24 @@ def validate(data: Data) -> tuple[Spec | None, list[ErrorDetails]]:
 
 
 def form_mistakes(errors: Sequence[ErrorDetails], data: Data) -> list[LocatedMistake]:
-    """The mistakes that errors stand for, each wrong thing once."""
-    guessed = {_guess(error, errors) for error in errors if error["type"] == "extra_forbidden"}
+    """Return the mistakes behind pydantic's errors, without those that only follow from another."""
+    misspelled = {_misspelled(error, errors) for error in errors if error["type"] == "extra_forbidden"}
     unreadable = frozenset().union(*map(names_lost, errors)) - RESERVED
     return [
         (path_of(error, data), _mistake(error, data))
         for error in errors
-        if not (error["type"] == "missing" and error["loc"] in guessed) and not _uses(error, unreadable)
+        if not (error["type"] == "missing" and error["loc"] in misspelled) and not _uses(error, unreadable)
     ]
 
 
 def path_of(error: ErrorDetails, data: Data) -> Path:
-    """Where the value, the key, or the mapping without the key stands that an error is about."""
+    """Return the path of the value or key that an error is about, or of the mapping that lacks a key."""
     location = error["loc"][:-1] if error["type"] == "missing" else error["loc"]
     return existing(location, data)
 
 
 def existing(location: Path, data: Data) -> Path:
-    """The location without the segments that lead nowhere: tags of unions, items of what is no list."""
+    """Return the location without the segments that lead nowhere: tags of unions, items of what is no list."""
     path: list[str | int] = []
     for segment in location:
         if has(data, segment):
@@ -67,14 +68,14 @@ def existing(location: Path, data: Data) -> Path:
 
 
 def has(data: Data, segment: str | int) -> bool:
-    """Whether there is a value under a key of a mapping, or at an index of a list."""
+    """Return whether there is a value under a key of a mapping, or at an index of a list."""
     if isinstance(segment, int):
         return isinstance(data, list) and 0 <= segment < len(data)
     return isinstance(data, dict) and segment in data
 
 
 def child(data: Data, segment: str | int) -> Data:
-    """The value under a key of a mapping, or at an index of a list; None if there is none."""
+    """Return the value under a key of a mapping, or at an index of a list; None if there is none."""
     if isinstance(data, dict):
         return data.get(str(segment))
     if isinstance(data, list) and isinstance(segment, int) and segment < len(data):
@@ -83,13 +84,13 @@ def child(data: Data, segment: str | int) -> Data:
 
 
 def names_lost(error: ErrorDetails) -> frozenset[str]:
-    """The names that a wrong key would have made, as they may be used elsewhere."""
+    """Return the names that a wrong key would have made, as they may be used elsewhere."""
     words = re.findall(r"\w+", str(error["input"])) if error["type"] == "bad_name" else ()
     return frozenset(words) | {word.lower() for word in words}
 
 
-def _guess(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:
-    """The missing key that an unexpected one was probably meant for."""
+def _misspelled(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:
+    """Return the path of the missing key that an unexpected one probably misspells."""
     *parent, key = error["loc"]
     missing = [
         other["loc"] for other in errors if other["type"] == "missing" and [*other["loc"][:-1]] == parent
@@ -99,7 +100,7 @@ def _guess(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:
 
 
 def _uses(error: ErrorDetails, names: frozenset[str]) -> bool:
-    """Whether an expression fails only because of a name that was told of already."""
+    """Return whether an expression is wrong only because of a name that is reported at its key."""
     words = re.findall(r"\w+", str(error["input"]))
     return error["type"] == "expression" and not names.isdisjoint(words)
 
@@ -118,7 +119,9 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
         case "too_short" | "string_too_short":
             return Mistake("BB027", f"{named(path)} is empty; it needs at least one {_item(path)}", KEY)
         case "literal_error" if path == ("bbsd",):
-            message = f"this is a spec in version {shown(error['input'])} of the language; only 1 is known"
+            message = (
+                f"this is a spec in version {show_value(error['input'])} of the language; only 1 is known"
+            )
             return Mistake("BB026", message)
         case "greater_than_equal" | "less_than_equal" | "string_too_long":
             return _not_allowed("BB023", path, error)
@@ -128,12 +131,12 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
 
 
 def _unexpected(path: Path) -> Mistake:
-    known, key = list(fields_at(path[:-1]) or ()), str(path[-1])
+    keys, key = list(fields_at(path[:-1]) or ()), str(path[-1])
     if blocks := blocks_with(key):
         advice = f"it belongs into {' or '.join(blocks)}"
         return Mistake("BB020", f'unexpected key "{key}" here', KEY, advice)
-    hint = did_you_mean(key, known)
-    advice = "" if hint else f"the keys here: {', '.join(known)}"
+    hint = did_you_mean(key, keys)
+    advice = "" if hint else f"the keys here: {', '.join(keys)}"
     return Mistake("BB020", f'unexpected key "{key}"{hint}', KEY, advice)
 
 
@@ -158,7 +161,9 @@ def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
         advice = "put it in quotes"
     elif isinstance(error["input"], str) and needed.startswith("a list"):
         advice = "a list is written in brackets: [one, another]"
-    return Mistake(code, f"{named(path)} must be {needed}, not {shown(error['input'])}{hint}", WHOLE, advice)
+    return Mistake(
+        code, f"{named(path)} must be {needed}, not {show_value(error['input'])}{hint}", WHOLE, advice
+    )
 
 
 NEEDED_BY_KEY = {
@@ -210,19 +215,19 @@ def _item(path: Path) -> str:
 
 
 def named(path: Path) -> str:
-    """What a message calls the value at a path."""
-    places = [str(segment + 1) for segment in path if isinstance(segment, int)]
+    """Return what a message calls the value at a path."""
+    numbers = [str(segment + 1) for segment in path if isinstance(segment, int)]
     keys = [segment for segment in path if isinstance(segment, str)]
     if not keys:
         return "a spec"
-    return keys[-1] if isinstance(path[-1], str) else f"item {'.'.join(places)} of {keys[-1]}"
+    return keys[-1] if isinstance(path[-1], str) else f"item {'.'.join(numbers)} of {keys[-1]}"
 
 
-def shown(value: object) -> str:
-    """What a message says a plain value is."""
+def show_value(value: object) -> str:
+    """Return how a message shows a plain value."""
     match value:
         case str():
-            return f'text "{value if len(value) <= MAX_SHOWN else value[:MAX_SHOWN] + "..."}"'
+            return f'text "{value if len(value) <= MAX_QUOTED else value[:MAX_QUOTED] + "..."}"'
         case bool():
             return f"the truth {str(value).lower()}"
         case int() | float():

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 MAX_CASES = 4096
 """Combinations of cases to go through."""
-MAX_WORK = 1_000_000
+MAX_EVALUATIONS = 1_000_000
 """Cases times nodes of the condition."""
 MAX_ATOMS = 300
 """Comparisons of one value: each is computed at every bound and between them."""
@@ -43,7 +43,7 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
         cases *= len(choices[subject])
         if cases > MAX_CASES:
             return False
-    if cases * len(nodes) > MAX_WORK:
+    if cases * len(nodes) > MAX_EVALUATIONS:
         return False
     return all(_holds(nodes, combination) for combination in product(*choices.values()))
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.constants import Constants
     from bbsd.language.meaning.episode import Episode
 
-MAX_ROUNDS = 100
+MAX_SPREAD = 100
 """Steps in which a fraction can spread from one slot to the next; if it spreads on, no slot counts as whole."""
 
 
@@ -44,7 +44,7 @@ def _slots_read(nodes: Sequence[Node]) -> dict[Slot, bool]:
 def _whole_slots(episode: Episode, is_whole_constant: Callable[[int | Gather], bool]) -> dict[Slot, bool]:
     """Say of each slot whether it always holds a whole number: in the largest set that starts so and stays so."""
     whole: dict[Slot, bool] = {slot: node.kind is Kind.NUMBER for slot, node in episode.start.items()}
-    for _ in range(MAX_ROUNDS):
+    for _ in range(MAX_SPREAD):
         nodes = whole_nodes([*episode.start.values(), *episode.after.values()], whole, is_whole_constant)
         still_whole: dict[Slot, bool] = {
             slot: whole[slot] and nodes[start.number] and nodes[episode.after[slot].number]

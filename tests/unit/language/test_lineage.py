@@ -12,7 +12,7 @@ from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.errors import SpecError
 from bbsd.language import lineage
-from bbsd.language.lineage import MAX_FILES, overlaid
+from bbsd.language.lineage import MAX_FILES, overlay
 from bbsd.language.loading import check, load
 from bbsd.report.configuration import configuration_text
 from bbsd.text import Source, differences, read, replace_blocks
@@ -55,9 +55,9 @@ def told(source):
     ],
 )
 def test_mappings_merge_level_by_level_and_all_else_is_replaced(base, over, expected):
-    assert json.dumps(overlaid(base, over)) == json.dumps(expected)
+    assert json.dumps(overlay(base, over)) == json.dumps(expected)
     document = read(Source("base", json.dumps(base)))
-    flat = replace_blocks(document, dict(differences(base, overlaid(base, over))))
+    flat = replace_blocks(document, dict(differences(base, overlay(base, over))))
     assert read(Source("flat", flat)).data == expected
 
 
@@ -172,7 +172,7 @@ def test_the_size_of_all_together_is_bounded(monkeypatch):
     monkeypatch.setattr(lineage, "MAX_CHARACTERS", len(BASE))
     assert told(extending("")) == [("BB029", "spec.yaml", 1)]
     monkeypatch.setattr(lineage, "MAX_CHARACTERS", 10 * len(BASE))
-    monkeypatch.setattr(lineage, "MAX_NODES", 20)
+    monkeypatch.setattr(lineage, "MAX_EXTENDED_NODES", 20)
     assert told(extending("")) == [("BB011", "spec.yaml", 1)]
 
 

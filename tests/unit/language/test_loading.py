@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bbsd.errors import SpecError
-from bbsd.language.loading import MAX_EXAMINED_TWICE, MAX_SHOWN, check, load
+from bbsd.language.loading import MAX_DIAGNOSES, MAX_EXAMINED_TWICE, check, load
 from bbsd.text import Source, read
 from tests.unit.language.specs import BASE, codes, messages, source
 
@@ -45,9 +45,9 @@ def test_a_mistake_in_an_aliased_value_is_told_where_it_is_written() -> None:
 
 
 def test_only_so_many_mistakes_are_shown() -> None:
-    terms = ", ".join(f"t{place}: unknown{place}" for place in range(MAX_SHOWN + 3))
+    terms = ", ".join(f"t{place}: unknown{place}" for place in range(MAX_DIAGNOSES + 3))
     told = check(source(f"reward: {{{terms}}}"))
-    assert len(told) == MAX_SHOWN
+    assert len(told) == MAX_DIAGNOSES
     assert told[-1].advice == "3 more mistakes are not shown"
     assert told[0].advice == ""
 
@@ -100,9 +100,9 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
     for key in place[:-1]:
         parent = parent.setdefault(key, {})
     parent[place[-1]] = value
-    from bbsd.language.loading import _examined
+    from bbsd.language.loading import _examine
 
-    spec, meaning, told = _examined(data, 0)
+    spec, meaning, told = _examine(data, 0, is_small=True)
     assert told or (spec and meaning)
     for _, mistake in told:
         assert not any(
