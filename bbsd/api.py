@@ -69,6 +69,8 @@ AnySpec = str | Path | Loaded
 class NothingToDesign(UsageError):
     """A spec without holes was given to `design`."""
 
+    advice = "to have parts of it designed, leave them out: the rules of a behavior, or the structure"
+
 
 class Interrupted(KeyboardInterrupt):
     """A design was stopped; its state is in `folder`, from which `design(..., resume=True)` continues."""

@@ -22,7 +22,7 @@ behaviors:
 structure: [low]
 reward: {right: "x if y == 1 else 0"}
 """
-"""Of 1, 2, 3 and 4 the first two are earned."""
+"""Of the starts 1, 2, 3 and 4, the first two earn a reward."""
 
 
 MODELINE = "# yaml-language-server: $schema=../schema/bbsd.schema.json\n"
@@ -30,15 +30,15 @@ MODELINE = "# yaml-language-server: $schema=../schema/bbsd.schema.json\n"
 
 @pytest.fixture(scope="module")
 def designed(tmp_path_factory):
-    """A design of two runs, and what was told meanwhile."""
-    told = []
+    """A design of two runs, and its progress."""
+    reports = []
     out = tmp_path_factory.mktemp("api") / "run"
-    return bbsd.api.design(SPEC, seed=SEED, runs=2, out=out, progress=told.append), told
+    return bbsd.api.design(SPEC, seed=SEED, runs=2, out=out, progress=reports.append), reports
 
 
 @pytest.fixture
 def spec(tmp_path):
-    """Writes a spec and gives its path."""
+    """Write a spec and return its path."""
 
     def write(text):
         path = tmp_path / "spec.yaml"
@@ -99,12 +99,12 @@ def test_what_is_set_to_nothing_is_not_in_the_design(overrides, kept, tmp_path):
 
 
 def test_progress_is_told_after_every_generation(designed):
-    _, told = designed
-    assert [(each.run, each.generation) for each in told] == [
+    _, reports = designed
+    assert [(report.run, report.generation) for report in reports] == [
         (run, g) for run in (1, 2) for g in (1, 2, 3, 4)
     ]
-    assert {(each.runs, each.generations) for each in told} == {(2, 4)}
-    assert all(each.mean <= each.best for each in told)
+    assert {(report.runs, report.generations) for report in reports} == {(2, 4)}
+    assert all(report.mean <= report.best for report in reports)
 
 
 def test_the_same_command_writes_the_same_bytes(designed, tmp_path):
@@ -117,19 +117,21 @@ def test_the_same_command_writes_the_same_bytes(designed, tmp_path):
 @pytest.mark.parametrize("at", [1, 4, 6])
 def test_a_stopped_design_goes_on_to_the_same_bytes(designed, tmp_path, at):
     found, _ = designed
-    told = []
+    reports = []
 
     def stop(progress):
-        told.append(progress)
-        if len(told) == at:
+        reports.append(progress)
+        if len(reports) == at:
             raise KeyboardInterrupt
 
     with pytest.raises(bbsd.api.Interrupted) as stopped:
         bbsd.api.design(SPEC, seed=SEED, runs=2, out=tmp_path / "run", progress=stop)
     assert stopped.value.folder == tmp_path / "run"
     assert not (tmp_path / "run" / "architecture.yaml").exists()
-    again = bbsd.api.design(SPEC, seed=SEED, runs=2, out=tmp_path / "run", resume=True, progress=told.append)
-    assert len(told) == 8
+    again = bbsd.api.design(
+        SPEC, seed=SEED, runs=2, out=tmp_path / "run", resume=True, progress=reports.append
+    )
+    assert len(reports) == 8
     assert files(again.folder) == files(found.folder)
 
 
@@ -174,11 +176,11 @@ def test_random_agents_live_ten_episodes_each_and_a_design_a_thousand(designed):
 
 
 def test_an_evaluation_tells_how_far_it_is(designed):
-    told = []
+    reports = []
     found = bbsd.api.evaluate(
-        designed[0].architecture, episodes=9000, progress=lambda *figures: told.append(figures)
+        designed[0].architecture, episodes=9000, progress=lambda *figures: reports.append(figures)
     )
-    assert told == [(4000, 9000), (8000, 9000), (9000, 9000)]
+    assert reports == [(4000, 9000), (8000, 9000), (9000, 9000)]
     assert found == bbsd.api.evaluate(designed[0].architecture, episodes=9000)
 
 

@@ -117,7 +117,7 @@ def failures(trace: Trace, behaviors: Sequence[str]) -> list[tuple[int, float]]:
 
 
 def _stretches(controlling: Sequence[str]) -> Stretches:
-    """Return for each behavior the begins and lengths of its control; step k is drawn from k - 1/2 to k + 1/2."""
+    """Return for each behavior the starts and lengths of its control; step k is drawn from k - 1/2 to k + 1/2."""
     stretches: Stretches = {}
     begin = 0.5
     for name, group in groupby(controlling):

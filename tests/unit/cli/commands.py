@@ -9,7 +9,7 @@ from bbsd.cli import main
 
 
 def run(*words):
-    """Run a command and return the code it leaves with; what it printed is in capsys."""
+    """Run a command and return its exit code; what it printed is in capsys."""
     with patch.object(sys, "argv", ["bbsd", *map(str, words)]), pytest.raises(SystemExit) as left:
         main()
     return left.value.code or 0

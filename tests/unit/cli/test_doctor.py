@@ -16,7 +16,7 @@ def test_a_sound_installation_leaves_with_0(capsys):
     }
 
 
-def test_something_wrong_is_told_and_leaves_with_1(capsys, monkeypatch):
+def test_a_problem_is_shown_and_the_exit_code_is_1(capsys, monkeypatch):
     monkeypatch.setattr(health, "examine", lambda: iter([Finding("cache", "/a", "full"), Finding("b", "c")]))
     assert run("doctor") == 1
     assert capsys.readouterr().out.splitlines() == [

@@ -45,7 +45,7 @@ def test_diff_and_check_go_together(capsys):
     assert capsys.readouterr().out.startswith("--- untidy.yaml\n")
 
 
-def test_a_mistake_in_one_file_is_told_and_the_others_are_formatted(capsys):
+def test_a_mistake_in_one_file_is_shown_and_the_others_are_formatted(capsys):
     Path("wrong.yaml").write_text("a: 1\na: 2\n", encoding="utf-8")
     assert run("fmt", "wrong.yaml", "untidy.yaml") == 2
     assert text("wrong.yaml") == "a: 1\na: 2\n"

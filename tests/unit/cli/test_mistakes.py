@@ -8,7 +8,7 @@ from bbsd.errors import Diagnosis, Place, SpecError
 from bbsd.text import Source
 
 
-def test_every_mistake_of_a_spec_is_told_with_its_line(capsys):
+def test_every_mistake_of_a_spec_is_shown_with_its_line(capsys):
     source = Source("a.yaml", "steps: 0\nrobots: x\n")
     places = (Place("a.yaml", 1, 8), Place("a.yaml", 2, 9))
     assert (

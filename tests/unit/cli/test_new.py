@@ -62,7 +62,7 @@ def test_the_templates_are_listed_with_what_they_are(capsys):
 
 
 @pytest.mark.parametrize("words", [["new"], ["new", "nowhere/a"], ["new", "a", "--template", "none"]])
-def test_what_cannot_be_made_is_told(words, capsys):
+def test_a_file_that_cannot_be_written_is_reported(words, capsys):
     assert run(*words) == 2
     assert capsys.readouterr().err
     assert not list(Path().iterdir())

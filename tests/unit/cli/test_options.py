@@ -46,6 +46,6 @@ def test_a_shell_gets_a_script_that_asks_the_tool(shell):
     assert "_BBSD_COMPLETE=complete_" + shell in script
 
 
-def test_a_shell_that_asks_is_told_the_specs():
+def test_a_shell_that_completes_gets_the_specs():
     asked = {"_BBSD_COMPLETE": "complete_bash", "COMP_WORDS": "bbsd design specs/l", "COMP_CWORD": "2"}
     assert bbsd(**asked).split() == ["specs/lamp.yml", "specs/lift.yaml"]

@@ -41,7 +41,7 @@ def configured():
 
 
 def origins(text):
-    """What each noted line has before its note, and the note."""
+    """Return the text and the comment of each commented line."""
     noted = [line.split("  # ") for line in text.splitlines() if "  # " in line]
     return {before.strip(): note for before, note in noted}
 

@@ -26,7 +26,7 @@ def test_another_result_than_everywhere_is_wrong(monkeypatch):
     assert "0x1.0p+0" in finding("self-check").problem
 
 
-def test_a_self_check_that_fails_is_told_of(monkeypatch):
+def test_a_self_check_that_fails_is_reported(monkeypatch):
     monkeypatch.setattr(health, "SELF_CHECK_SPEC", "bbsd: 2\n")
     assert finding("self-check").problem.startswith("SpecError")
 

@@ -22,11 +22,11 @@ def test_an_evaluation_as_plain_data(evaluation):
     }
 
 
-def test_values_that_were_not_finite_are_told_where_there_were_any(evaluation):
+def test_values_that_were_not_finite_are_listed_where_there_were_any(evaluation):
     assert evaluation_plain(replace(evaluation, not_finite={"tilt_0": 3}))["not_finite"] == {"tilt_0": 3}
 
 
-def test_expectations_are_told_where_there_are_any(evaluation):
+def test_expectations_are_listed_where_there_are_any(evaluation):
     plain = evaluation_plain(replace(evaluation, expectation_share={"stop_at_goal": 0.5, "push_more": nan}))
     assert plain["expectation_share"] == {"stop_at_goal": 0.5, "push_more": None}
 

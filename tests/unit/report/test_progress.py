@@ -72,7 +72,7 @@ def shown_episodes(console):
     return console.file.getvalue()
 
 
-def test_a_terminal_shows_how_many_episodes_were_lived_and_clears_the_line():
+def test_a_terminal_shows_how_many_episodes_are_done_and_clears_the_line():
     console = Console(file=StringIO(), force_terminal=True, width=80, color_system=None)
     text = shown_episodes(console)
     assert "compiling" not in text.splitlines()[-1]

@@ -1,4 +1,4 @@
-"""The JSON Schema that editors read says of a spec's form what `bbsd check` says."""
+"""The JSON Schema that editors read agrees with `bbsd check` on the form of a spec."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_it_is_a_schema_without_tuples():
 
 
 def items(schema):
-    """What stands under the `items` of a schema, wherever it is."""
+    """Yield the values of all `items` in a schema, at any depth."""
     if isinstance(schema, dict):
         for key, value in schema.items():
             if key == "items":

@@ -57,7 +57,7 @@ def test_an_exact_evaluation_has_no_interval_either(evaluation):
     assert "exact\nall 25 starts, 1 step each" in text
 
 
-def test_several_agents_and_episodes_of_different_length_are_told(evaluation):
+def test_several_agents_and_episodes_of_different_length_are_shown(evaluation):
     text = printed(evaluation_table(replace(evaluation, agents=50, steps=12.25)))
     assert "1,000 episodes of 12.2 steps on average by 50 agents" in text
 

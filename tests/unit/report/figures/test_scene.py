@@ -39,7 +39,7 @@ def spec():
 
 @pytest.fixture
 def seen(trace):
-    """The trace with a scene of its two robots."""
+    """Return the trace with a scene of its two robots."""
     places = np.array([[[0, 0, 0.2], [1, 0, 0.2], [2, 1, 0.2], [2, 1, 0.2]], [[3, 3, 0.2]] * 4], float)
     lamp = np.array([[4, 4, 0.5], [4, 4, 0.5], [4, 4, 0.5], [1, 4, 0.5]])
     return replace(trace, scene=Scene(places, np.zeros((2, 4)), None, np.empty((0, 3)), None, {"lamp": lamp}))
@@ -125,7 +125,7 @@ def test_a_scene_shows_paths_marks_and_control_in_the_same_colors(seen, spec, tm
 
 
 def drawn_marks(track):
-    """The labels, the lines of points, and the circles that a mark is drawn as."""
+    """Return the labels, the lines of points, and the circles that a mark is drawn as."""
     panel = Figure().subplots()
     draw_mark(panel, "lamp", np.array(track, float), np.zeros((1, 2)), Limits((0, 10), (0, 10)))
     lines = [line.get_xydata().tolist() for line in panel.lines]
