@@ -43,14 +43,13 @@ def _lines(trace: Trace, name: str) -> Lines:
     return {
         _label(slot, trace.robots): [float(value) for value in values]
         for slot, values in trace.values.items()
-        if slot[0] == name and not any(isinstance(value, str) for value in values)
+        if slot.name == name and not any(isinstance(value, str) for value in values)
     }
 
 
 def _label(slot: Slot, robots: int) -> str:
-    _, robot, place = slot
-    who = f"robot {robot}" if robot is not None and robots > 1 else ""
-    return who + "".join(f"[{index}]" for index in place)
+    robot = f"robot {slot.robot}" if slot.robot is not None and robots > 1 else ""
+    return robot + "".join(f"[{index}]" for index in slot.place)
 
 
 def _common(trace: Trace, name: str) -> list[float]:

@@ -9,6 +9,7 @@ import pytest
 
 from bbsd.api import Designed
 from bbsd.evaluation import Evaluation, Interval, Trace
+from bbsd.expression.node_data import Slot
 
 
 @pytest.fixture
@@ -40,16 +41,16 @@ def designed(evaluation):
 @pytest.fixture
 def trace():
     values = {
-        ("height", 0, ()): [2.0, 2.5, 3.0],
-        ("height", 1, ()): [2.1, 2.1, 2.1],
-        ("tilt", 0, ()): [9.0, 4.0, 1.0],
-        ("tilt", 1, ()): [9.0, 4.0, 1.0],
-        ("tilted", 0, ()): [1.0, 0.0, 0.0],
-        ("tilted", 1, ()): [1.0, 0.0, 0.0],
-        ("place", 0, ()): ["lowest", "highest", "highest"],
-        ("place", 1, ()): ["highest", "lowest", "lowest"],
-        ("sonar", 0, ()): [0.5, 0.25, 0.125],
-        ("sonar", 1, ()): [7.0, 7.0, 7.0],
+        Slot("height", 0): [2.0, 2.5, 3.0],
+        Slot("height", 1): [2.1, 2.1, 2.1],
+        Slot("tilt", 0): [9.0, 4.0, 1.0],
+        Slot("tilt", 1): [9.0, 4.0, 1.0],
+        Slot("tilted", 0): [1.0, 0.0, 0.0],
+        Slot("tilted", 1): [1.0, 0.0, 0.0],
+        Slot("place", 0): ["lowest", "highest", "highest"],
+        Slot("place", 1): ["highest", "lowest", "lowest"],
+        Slot("sonar", 0): [0.5, 0.25, 0.125],
+        Slot("sonar", 1): [7.0, 7.0, 7.0],
     }
     controlling = [["push_more", "push_more", "stop_at_goal"], ["push_more", "nobody", "push_more"]]
     rewards = {"near_goal": [np.array([0.1, 0.2, 1.0]), np.array([0.1, 0.2, 0.3])]}
