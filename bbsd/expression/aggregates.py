@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from bbsd.expression.checks import has_arguments, known_whole, of_kind
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import unseen
+from bbsd.expression.operations import BY_AGGREGATE
 from bbsd.expression.tree import Call, Each, Name
 
 if TYPE_CHECKING:
@@ -63,14 +64,11 @@ def _size(value: Value) -> int:
     return sum(_size(item) for item in value) if isinstance(value, tuple) else 1
 
 
-FOLDED = {"min": "minimum", "max": "maximum", "sum": "+", "any": "|", "all": "&"}
-
-
 def _folded(function: str, nodes: Sequence[Node], scope: Scope) -> Node:
     graph = scope.graph
     if function == "mean":
         return graph.apply("divide", graph.fold("+", nodes), graph.number(len(nodes)))
-    return graph.fold(FOLDED[function], nodes)
+    return graph.fold(BY_AGGREGATE[function], nodes)
 
 
 def _best(expr: Call, elements: Sequence[Element], nodes: Sequence[Node], scope: Scope) -> Node:

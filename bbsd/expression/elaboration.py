@@ -14,6 +14,7 @@ from bbsd.expression.aggregates import aggregate
 from bbsd.expression.checks import has_arguments, known_whole, of_kind
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, index, name_value
+from bbsd.expression.operations import BY_WORD
 from bbsd.expression.scope import Definition, Unusable
 from bbsd.expression.tree import (
     Binary,
@@ -140,12 +141,9 @@ def _unary(expr: Unary, scope: Scope) -> Node:
     return scope.graph.apply("negate", operand) if expr.operator == "-" else operand
 
 
-ARITHMETIC = {"+": "+", "-": "-", "*": "*", "/": "divide", "//": "floor_divide", "%": "modulo"}
-
-
 def _arithmetic(expr: Binary, scope: Scope) -> Node:
     left = _of_kind(expr.left, Kind.NUMBER, scope)
-    return scope.graph.apply(ARITHMETIC[expr.operator], left, _of_kind(expr.right, Kind.NUMBER, scope))
+    return scope.graph.apply(BY_WORD[expr.operator], left, _of_kind(expr.right, Kind.NUMBER, scope))
 
 
 def _power(expr: Binary, scope: Scope) -> Node:
@@ -164,7 +162,7 @@ def _power(expr: Binary, scope: Scope) -> Node:
 
 def _logical(expr: Logical, scope: Scope) -> Node:
     nodes = [_of_kind(operand, Kind.TRUTH, scope) for operand in expr.operands]
-    return scope.graph.fold("&" if expr.operator == "and" else "|", nodes)
+    return scope.graph.fold(BY_WORD[expr.operator], nodes)
 
 
 def _comparison(expr: Comparison, scope: Scope) -> Node:

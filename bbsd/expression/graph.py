@@ -12,9 +12,9 @@ from enum import IntEnum
 from math import frexp, isfinite
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from bbsd.expression.kinds import Kind
+from bbsd.expression.kinds import Kind, Wholeness
 from bbsd.expression.node_data import Draw, Gather, Literal, NodeData, Slot
-from bbsd.expression.operations import CALLED, COMPARISONS, INFIX
+from bbsd.expression.operations import OPERATIONS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
@@ -231,24 +231,14 @@ def kind_drawn(distribution: str) -> Kind:
 
 
 def _kind_of(operation: str, operands: tuple[Node, ...]) -> Kind:
-    if operation in COMPARISONS or operation in ("&", "|", "not", "finite"):
-        return Kind.TRUTH
-    if operation in ("cell_of", "clamp_index"):
-        return Kind.CELL
-    if operation == "select":
-        return operands[1].kind
-    return operands[0].kind
+    kind = OPERATIONS[operation].kind
+    return operands[kind].kind if isinstance(kind, int) else kind
 
 
 def compute(operation: str, operands: Sequence[Any], data: NodeData = None) -> Any:  # noqa: ANN401 - a number, a truth or a cell index
-    """The value of an operation on plain numbers and truths."""
-    if operation in INFIX:
-        return INFIX[operation](*operands)
-    if operation in CALLED:
-        return CALLED[operation](*operands) if data is None else CALLED[operation](*operands, data)
-    if operation == "negate":
-        return -operands[0]
-    return not operands[0]
+    """Return the value of an operation on plain numbers and truths."""
+    function = OPERATIONS[operation].compute
+    return function(*operands) if data is None else function(*operands, data)
 
 
 def needed(outputs: Iterable[Node]) -> list[Node]:
@@ -318,8 +308,6 @@ def _is_whole(
             return not isinstance(value, float) or not isfinite(value) or value.is_integer()
         case "slot":
             return whole_slots.get(node.slot, False)
-        case "unknown":
-            return True
         case "constant":
             return whole_constant(node.index)
         case "gather":
@@ -328,11 +316,13 @@ def _is_whole(
             return node.draw.distribution == "integers" and all(operands)
         case "select":
             return all(operands[1:])
-        case "step" | "floor" | "ceil" | "round_half_even" | "sign" | "cell_of" | "clamp_index":
-            return True
-        case "+" | "-" | "*" | "negate" | "abs" | "minimum" | "maximum" | "floor_divide" | "modulo":
-            return all(operands)
         case "whole_power":
-            return all(operands) and isinstance(node.data, int) and node.data >= 0
-        case _:
-            return False
+            return all(operands) and node.index >= 0
+        case "step" | "unknown":
+            return True
+    match OPERATIONS[node.operation].wholeness if node.operation in OPERATIONS else Wholeness.NEVER:
+        case Wholeness.ALWAYS:
+            return True
+        case Wholeness.LIKE_OPERANDS:
+            return all(operands)
+    return False

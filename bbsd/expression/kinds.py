@@ -13,3 +13,11 @@ class Kind(Enum):
     CELL = "a cell"
     UNKNOWN = "unknown"
     """What could not be understood; it silences mistakes that would only follow from the first."""
+
+
+class Wholeness(Enum):
+    """When the value of an operation is a whole number."""
+
+    NEVER = "not certainly"
+    LIKE_OPERANDS = "where its operands are"
+    ALWAYS = "always"

@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from bbsd.expression.graph import LEAVES, needed, value_of
-from bbsd.expression.operations import CALLED, INFIX
+from bbsd.expression.operations import OPERATIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from bbsd.expression.graph import Node
-
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **INFIX,
-    **CALLED,
-    "negate": operator.neg,
-    "not": operator.not_,
-}
 
 Step = tuple[Callable[..., Any], int, tuple[int, ...]]
 """A function, where its value goes, and where its operands stand."""
@@ -46,7 +38,7 @@ def values_for(node: Node, numbers: Iterable[float]) -> Iterator[Any]:
 
 
 def _function(node: Node) -> Callable[..., Any]:
-    function = FUNCTIONS[node.operation]
+    function = OPERATIONS[node.operation].compute
     return function if node.data is None else partial(_with_data, function, node.data)
 
 

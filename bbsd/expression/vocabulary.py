@@ -6,37 +6,46 @@ from keyword import kwlist
 from math import pi
 from typing import NamedTuple
 
+from bbsd.expression.kinds import Wholeness
+
 
 class Function(NamedTuple):
-    """A function of numbers: how many it takes, the kernel's function, and what it gives."""
+    """A function of numbers."""
 
     arity: int
+    """The number of its arguments."""
     operation: str
+    """The name of the kernel's function, and of the operation in graphs."""
     meaning: str
+    """What the manual says of its value."""
+    wholeness: Wholeness = Wholeness.NEVER
+    """When its value is a whole number."""
+    is_expensive: bool = False
+    """Whether it takes so long that kernels give it a line, and perhaps a loop, of its own."""
 
 
 FUNCTIONS: dict[str, Function] = {
-    "abs": Function(1, "abs", "absolute value"),
-    "acos": Function(1, "acos", "arc cosine, in radians"),
-    "asin": Function(1, "asin", "arc sine, in radians"),
-    "atan": Function(1, "atan", "arc tangent, in radians"),
-    "atan2": Function(2, "atan2", "angle of the point (second, first), in radians"),
-    "ceil": Function(1, "ceil", "smallest whole number not below"),
-    "cos": Function(1, "cos", "cosine of radians"),
+    "abs": Function(1, "abs", "absolute value", Wholeness.LIKE_OPERANDS),
+    "acos": Function(1, "acos", "arc cosine, in radians", is_expensive=True),
+    "asin": Function(1, "asin", "arc sine, in radians", is_expensive=True),
+    "atan": Function(1, "atan", "arc tangent, in radians", is_expensive=True),
+    "atan2": Function(2, "atan2", "angle of the point (second, first), in radians", is_expensive=True),
+    "ceil": Function(1, "ceil", "smallest whole number not below", Wholeness.ALWAYS),
+    "cos": Function(1, "cos", "cosine of radians", is_expensive=True),
     "degrees": Function(1, "degrees", "radians to degrees"),
-    "exp": Function(1, "exp", "power of e"),
-    "floor": Function(1, "floor", "largest whole number not above"),
+    "exp": Function(1, "exp", "power of e", is_expensive=True),
+    "floor": Function(1, "floor", "largest whole number not above", Wholeness.ALWAYS),
     "hypot": Function(2, "hypot", "length of the vector (first, second)"),
-    "log": Function(1, "log", "natural logarithm"),
-    "log10": Function(1, "log10", "logarithm to base 10"),
-    "log2": Function(1, "log2", "logarithm to base 2"),
+    "log": Function(1, "log", "natural logarithm", is_expensive=True),
+    "log10": Function(1, "log10", "logarithm to base 10", is_expensive=True),
+    "log2": Function(1, "log2", "logarithm to base 2", is_expensive=True),
     "radians": Function(1, "radians", "degrees to radians"),
-    "round": Function(1, "round_half_even", "nearest whole number, halves to the even one"),
-    "sign": Function(1, "sign", "-1, 0 or 1"),
-    "sin": Function(1, "sin", "sine of radians"),
+    "round": Function(1, "round_half_even", "nearest whole number, halves to the even one", Wholeness.ALWAYS),
+    "sign": Function(1, "sign", "-1, 0 or 1", Wholeness.ALWAYS),
+    "sin": Function(1, "sin", "sine of radians", is_expensive=True),
     "sqrt": Function(1, "sqrt", "square root"),
-    "tan": Function(1, "tan", "tangent of radians"),
-    "tanh": Function(1, "tanh", "hyperbolic tangent"),
+    "tan": Function(1, "tan", "tangent of radians", is_expensive=True),
+    "tanh": Function(1, "tanh", "hyperbolic tangent", is_expensive=True),
 }
 
 AGGREGATES: dict[str, str] = {

@@ -21,11 +21,12 @@ from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
 from bbsd.expression.graph import Graph, Level, Node, needed, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
+from bbsd.expression.operations import MIRRORED
 
 if TYPE_CHECKING:
     from bbsd.language.meaning.episode import Episode
 
-MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
+ORDERINGS = frozenset({"<", "<=", ">", ">="})
 VARYING = (Level.LANE, Level.EACH)
 NEVER_NEGATIVE = frozenset({"sqrt", "hypot", "abs"})
 
@@ -138,7 +139,7 @@ class _Rewriting:
 
     def _compared(self, node: Node) -> Node | None:
         """The comparison of an angle, or of the difference of two, with a constant."""
-        if node.operation not in MIRRORED or node.level not in VARYING:
+        if node.operation not in ORDERINGS or node.level not in VARYING:
             return None
         operation, (side, other) = node.operation, node.operands
         if side.level is Level.CALL:

@@ -11,7 +11,6 @@ from bbsd.compiler.writing.precedence import (
     ATOM,
     COMPARISON,
     LOWEST,
-    PRECEDENCE,
     SIGN,
     Text,
     grouped,
@@ -23,7 +22,7 @@ from bbsd.compiler.writing.precedence import (
 from bbsd.compiler.writing.schedule import stages
 from bbsd.expression.graph import Level, Node, needed
 from bbsd.expression.node_data import RobotDraws, RobotGathers
-from bbsd.expression.operations import INFIX
+from bbsd.expression.operations import BINDING, EXPENSIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -35,10 +34,6 @@ if TYPE_CHECKING:
 LONGEST = 88
 DEEPEST = 50
 """Operations within one another at which a value gets a name, however short its text."""
-EXPENSIVE = frozenset(
-    ["acos", "asin", "atan", "atan2", "cos", "exp", "log", "log2", "log10", "power", "sin", "tan", "tanh"]
-)
-"""Operations that have a line, and perhaps a loop, of their own."""
 LEAF = frozenset({"slot", "constant", "step", "start"})
 """Operations that read a value where it stands."""
 STANDING = frozenset({"over", "each", "among"})
@@ -185,7 +180,7 @@ class Emitter:
 
     def _operation(self, node: Node, into: Block) -> Text:
         operation, operands = node.operation, node.operands
-        if operation in PRECEDENCE or operation in INFIX:
+        if operation in BINDING:
             left, right = (self._text(operand, into) for operand in operands)
             return infix(operation, left, right)
         match operation:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.writing.emission import EXPENSIVE
 from bbsd.expression.graph import Level
+from bbsd.expression.operations import EXPENSIVE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.operations import BINDING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 Text = tuple[str, int]
 """An expression's source and how tightly its outermost operation binds."""
 
-PRECEDENCE = {"|": 2, "&": 3, "+": 5, "-": 5, "*": 6}
 LOWEST, COMPARISON, SIGN, ATOM = 0, 1, 7, 9
 
 
@@ -27,8 +27,8 @@ def grouped(text: Text, binds: int) -> str:
 
 def infix(operation: str, left: Text, right: Text) -> Text:
     """Two texts joined by an operation that is done from left to right, or by a comparison."""
-    own = PRECEDENCE.get(operation, COMPARISON)
-    leftmost = own if operation in PRECEDENCE else own + 1
+    own = BINDING[operation]
+    leftmost = own + (own == COMPARISON)
     return f"{grouped(left, leftmost)} {operation} {grouped(right, own + 1)}", own
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, Node, compute, value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.operations import COMPARISONS, INFIX
+from bbsd.expression.operations import COMPARISONS, MIRRORED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -19,8 +19,6 @@ MAX_EVALUATIONS = 1_000_000
 """Cases times nodes of the condition."""
 MAX_ATOMS = 300
 """Comparisons of one value: each is computed at every bound and between them."""
-
-MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
 
 def covers_everything(conditions: list[Node], graph: Graph) -> bool:
@@ -100,14 +98,14 @@ def _cases(group: list[Node]) -> list[dict[int, bool]]:
 
 def _truth_at(atom: Node, point: float) -> bool:
     left, right = (value_of(node) if node.literal else point for node in atom.operands)
-    return bool(INFIX[atom.operation](left, right))
+    return bool(compute(atom.operation, [left, right]))
 
 
 def _truth_in_order(atom: Node, order: int) -> bool:
     """Return an atom's truth where its value of lower number is below (-1), equal to (0) or above (1) the other."""
     left, right = atom.operands
     operation = atom.operation if left.number < right.number else MIRRORED[atom.operation]
-    return bool(INFIX[operation](order, 0))
+    return bool(compute(operation, [order, 0]))
 
 
 def _holds(nodes: Sequence[Node], combination: Iterable[Mapping[int, bool]]) -> bool:
