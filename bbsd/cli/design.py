@@ -114,9 +114,9 @@ def design(
 def _workers(count: int) -> "AbstractContextManager[Processes | None]":
     if count == 0:
         return nullcontext()
-    from bbsd.runs.processes import waiting
+    from bbsd.runs.processes import waiting_processes
 
-    return waiting(count)
+    return waiting_processes(count)
 
 
 def _show_price(price: "Price", *, as_json: bool) -> None:

@@ -1,1 +1,1 @@
-"""Carry out runs of the method: processes, a run's folder and checkpoints, prices, interrupts."""
+"""The machinery that carries out the method: runs, their folder and checkpoints, processes, prices, interrupts."""

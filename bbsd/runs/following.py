@@ -1,4 +1,4 @@
-"""Metrics read while someone else writes them."""
+"""Reading metrics that another process is writing."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ if TYPE_CHECKING:
 
 
 class Follower:
-    """Reads the lines that are added to a file from now on."""
+    """A reader of the lines that are added to a file after the reader was made."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._read = path.stat().st_size if path.exists() else 0
+        self._position = path.stat().st_size if path.exists() else 0
 
     def new_lines(self) -> Iterator[dict[str, Any]]:
-        """The lines that were completed since the last time."""
+        """Yield the lines that were completed since the last call."""
         if not self._path.exists():
             return
         with self._path.open("rb") as file:
-            file.seek(self._read)
+            file.seek(self._position)
             for line in file:
                 if not line.endswith(b"\n"):
                     return
-                self._read += len(line)
+                self._position += len(line)
                 yield json.loads(line)

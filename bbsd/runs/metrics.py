@@ -1,4 +1,4 @@
-"""What is noted of a generation: one line of `metrics.jsonl`, without clock or path."""
+"""The metrics of a generation: one line of `metrics.jsonl`, which depends on no clock and no path."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def line(run: int, state: State, census: Census, problem: Problem) -> dict[str, Any]:
-    """The figures of a generation: fitness over the agents, diversity of the pools, the fittest agent's structure."""
+    """Return the metrics of a generation: agents' fitness, diversity of the pools, the fittest agent's structure."""
     best = int(np.argmax(census.fitness))
     structure = [problem.names[behavior] for behavior in reversed(census.structures[best])]
     return {
@@ -30,7 +30,7 @@ def line(run: int, state: State, census: Census, problem: Problem) -> dict[str, 
 
 
 def diversity(pool: Pool) -> float:
-    """The probability that two individuals, drawn with replacement, differ in a cell; the mean over all cells."""
+    """Return the probability that two individuals, drawn with replacement, differ in a cell, averaged over cells."""
     different = np.ones(pool.shape[1])
     for value in range(int(pool.max(initial=0)) + 1):
         different -= (np.count_nonzero(pool == value, axis=0) / len(pool)) ** 2

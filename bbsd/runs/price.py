@@ -1,4 +1,4 @@
-"""What a design will cost, before it is begun: sizes, episodes, memory, and the time of a sample of real episodes."""
+"""The price of a design before it begins: sizes, episodes, memory, and time by a sample of real episodes."""
 
 from __future__ import annotations
 
@@ -23,74 +23,74 @@ if TYPE_CHECKING:
 
 SAMPLE = name_word("sample")
 RACED = 2 * FIRST_ROUND
-"""Episodes for each candidate that may enter the final race, by experience: many behave alike, most lose early."""
+"""Episodes of each candidate in the final race, by experience: many behave alike, most are out early."""
 NUMBER = 8
-"""Bytes."""
+"""Bytes of a number."""
 
 
 @dataclass(frozen=True, slots=True)
 class TablePrice:
-    """A behavior's table."""
+    """The size of a behavior's table."""
 
     behavior: str
     cells: int
     open_cells: int
     actions: int
     decades: float
-    """The designs of this table, as a logarithm to base 10."""
+    """How many designs of this table there are, as a logarithm to base 10."""
 
 
 @dataclass(frozen=True, slots=True)
 class Price:
-    """What a design will cost."""
+    """The price of a design: its size, and what it takes."""
 
     tables: tuple[TablePrice, ...]
     layers: int
     open_layers: int
     decades: float
-    """The search space, all tables and orders, as a logarithm to base 10."""
+    """The size of the search space, all tables and orders, as a logarithm to base 10."""
     episodes: int
     """Episodes of single agents in all generations of all runs."""
     further_episodes: int
-    """Those of the final races, and those that the answer is judged on, about."""
+    """Episodes of the final races and of the judgement of the answer, estimated."""
     steps: int
-    """Steps of robots in all of them, at most."""
+    """Steps of robots in all these episodes, at most."""
     bytes: int
-    """Memory of the process, about."""
+    """Memory of all processes, estimated."""
     starting: float
-    """Seconds that were said to be needed beside the design itself."""
+    """Seconds beside the design itself, as given by the caller."""
     compiling: float
-    """Seconds until the kernels run; less where they are kept from before."""
+    """Seconds until the kernels run; less where they are in the cache."""
     breeding: float
     """Seconds of a generation beside the episodes of its agents."""
     drawing: float
-    """Seconds in which random tables are drawn: of first pools, and of agents that a design is compared with."""
+    """Seconds of drawing random tables, for the first pools and for agents that the design is compared with."""
     microseconds: float
-    """Of an agent's episode in a lifetime, all that is learned after it included."""
+    """Microseconds of an agent's episode in a lifetime, learning included."""
     seconds: float
-    """Of the whole, about."""
+    """Seconds of the whole, estimated."""
 
 
 def price(
     problem: Problem, settings: Settings, seed: int, n_runs: int, jobs: int = 1, starting: float = 0.0
 ) -> Price:
-    """The price of so many runs; lives some episodes for it and writes nothing.
+    """Return the price of so many runs, from a sample of their episodes; write nothing.
 
-    Times are the processor's, so that they do not depend on what else the machine does. With several jobs runs go side
-    by side, and threads share what is lived.
+    Times are processor times, so that they do not depend on what else the machine does. With several jobs, runs go side
+    by side and threads share episodes.
     """
     processes = min(n_runs, jobs)
     sampled = replace(problem, jobs=jobs // processes)
-    taken = sample(sampled, settings, fold(seed_key(seed), SAMPLE))
+    measured = sample(sampled, settings, fold(seed_key(seed), SAMPLE))
     generations, agents = settings.coevolution.generations, settings.coevolution.agents
-    lived, raced = generations * _lifetimes(settings), _raced(settings)
-    episode = taken.episode / taken.hastened
-    one_after_the_other = -(-n_runs // processes)
-    run = generations * taken.generation(agents) + (lived + raced) * episode
+    learning, raced = generations * _lifetimes(settings), _raced(settings)
+    episode = measured.episode / measured.speedup
+    rounds = -(-n_runs // processes)
+    run = generations * measured.generation(agents) + (learning + raced) * episode
     judging = _judged(settings) * episode
-    drawing = (one_after_the_other * settings.coevolution.population + RANDOM_AGENTS) * taken.newborn
+    drawing = (rounds * settings.coevolution.population + RANDOM_AGENTS) * measured.random_agent
     environment = problem.meaning.spec.environment
-    episodes, further = n_runs * lived, n_runs * raced + _judged(settings)
+    episodes, further = n_runs * learning, n_runs * raced + _judged(settings)
     return Price(
         tables=_tables(problem),
         layers=len(problem.layers),
@@ -101,11 +101,11 @@ def price(
         steps=(episodes + further) * environment.steps * environment.robots,
         bytes=processes * (resident() + _bytes(problem, settings)),
         starting=starting,
-        compiling=taken.compiling,
-        breeding=taken.generation(agents),
+        compiling=measured.compiling,
+        breeding=measured.generation(agents),
         drawing=drawing,
-        microseconds=taken.episode * 1e6,
-        seconds=starting + taken.compiling + one_after_the_other * run + judging + drawing,
+        microseconds=measured.episode * 1e6,
+        seconds=starting + measured.compiling + rounds * run + judging + drawing,
     )
 
 
@@ -128,7 +128,7 @@ def _lifetimes(settings: Settings) -> int:
 
 
 def _raced(settings: Settings) -> int:
-    """Return the episodes of a run's final race, about."""
+    """Return the episodes of a run's final race, estimated."""
     agents = settings.coevolution.agents * settings.coevolution.generations
     return min(settings.answer.candidates, agents) * min(RACED, settings.answer.episodes)
 
@@ -138,7 +138,7 @@ def _judged(settings: Settings) -> int:
 
 
 def _bytes(problem: Problem, settings: Settings) -> int:
-    """The bytes of the large arrays of a run, where it has most of them: in a generation, or when it is judged."""
+    """Return the bytes of a run's large arrays where there are most: in a generation, a race, or the judgement."""
     cells = sum(table.n_cells for table in problem.tables)
     n_layers, n_behaviors = len(problem.layers), problem.n_behaviors
     evolved, learning = settings.coevolution, settings.learning
@@ -150,9 +150,9 @@ def _bytes(problem: Problem, settings: Settings) -> int:
 
 
 def resident() -> int:
-    """Return the bytes that this process had at most so far; 0 where the system does not tell."""
+    """Return the most bytes that this process had so far; 0 where the system does not report them."""
     try:
-        # What Linux tells of a process's resources still knows the size of the process that started it.
+        # Linux counts the size of the process that started this one among its resources, but not here.
         return 1024 * int(Path("/proc/self/status").read_text(encoding="ascii").split("VmHWM:")[1].split()[0])
     except (OSError, IndexError, ValueError):
         return _resident_by_resources()

@@ -1,7 +1,7 @@
-"""Processes that wait for work. They may be started before this one imports what the work needs, as that takes long.
+"""Processes that wait for work. They may start before this one imports what the work needs, since that takes long.
 
-Each goes on as long as a pipe to its parent is open: when the parent wants to stop, or is no more, a worker stops at
-the next episode, or soon at any place.
+Each works as long as a pipe to its parent is open. When the parent wants to stop, or has ended, a worker stops before
+the next episode, or shortly after at any place.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from bbsd.stopping import StopRequest
 
 GRACE = 0.8
-"""Seconds in which a worker should have stopped by itself; fewer than its parent has."""
+"""Seconds that a worker has to stop by itself; fewer than its parent has."""
 STOPPED = 130
 NEEDED = "bbsd.runs.workers"
 ENVIRONMENT = {"PYTHONSAFEPATH": "1", "PYTHONWARNINGS": "ignore:resource_tracker:UserWarning"}
-"""They import nothing from the present folder; and one of loky's cleans up after a killed parent without a word."""
+"""Workers import nothing from the current folder, and loky's tracker cleans up silently after a killed parent."""
 
 
 class Processes:
@@ -42,47 +42,47 @@ class Processes:
         self.used = False
         self._executor = executor
         self._lifeline = lifeline
-        self._cutting = threading.RLock()  # a handler may come in the middle of it
+        self._stopping = threading.RLock()  # a signal handler may run in the middle of it
 
     def submit(self, function: Callable[..., Any], *arguments: object) -> Future[Any]:
-        """Have one of them do it, as soon as one is free."""
+        """Call the function in one of them, as soon as one is free."""
         self.used = True
         return self._executor.submit(function, *arguments)
 
     def dismiss(self) -> None:
-        """Have them end once they have done what was submitted."""
+        """Let them end once they have done what was submitted."""
         self._executor.shutdown(wait=False)
 
-    def cut(self) -> None:
-        """Have them stop; from any thread."""
-        with self._cutting:
+    def stop(self) -> None:
+        """Make them stop; from any thread."""
+        with self._stopping:
             self._lifeline.close()
 
 
 @contextmanager
-def waiting(count: int) -> Iterator[Processes]:
-    """Start so many processes, and end them."""
+def waiting_processes(count: int) -> Iterator[Processes]:
+    """Start so many processes, and end them at exit."""
     from loky import ProcessPoolExecutor
 
-    cache_folder("compiled")  # if it is a temporary one it is theirs too, and is told of once
+    cache_folder("compiled")  # a temporary one is then shared, and reported once
     reader, lifeline = Pipe(duplex=False)
     with _environment():
-        executor = ProcessPoolExecutor(count, initializer=_begin, initargs=(reader,))
+        executor = ProcessPoolExecutor(count, initializer=_prepare_worker, initargs=(reader,))
         processes = Processes(executor, lifeline)
         resource_tracker.ensure_running()  # it would unblock interrupts when it is started with the first worker
         try:
             with _no_interrupts():
-                executor.submit(_here)
+                executor.submit(_do_nothing)
             yield processes
         finally:
             executor.shutdown(wait=True, kill_workers=not processes.used)
-            processes.cut()
+            processes.stop()
             reader.close()
 
 
 @contextmanager
 def _environment() -> Iterator[None]:
-    """The environment of processes that are started in here, and what it was again afterwards."""
+    """Set the environment of processes that are started inside, and restore it at exit."""
     before = {name: os.environ.get(name) for name in ENVIRONMENT}
     os.environ.update(ENVIRONMENT)
     try:
@@ -95,7 +95,7 @@ def _environment() -> Iterator[None]:
 
 @contextmanager
 def _no_interrupts() -> Iterator[None]:
-    """Processes that are started in here never notice Ctrl-C; this one does, once it is out of here."""
+    """Hide Ctrl-C from processes that are started inside; this one gets it at exit."""
     if os.name != "posix":
         yield
         return
@@ -106,8 +106,8 @@ def _no_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _begin(lifeline: Connection) -> None:
-    """Make a worker of this process."""
+def _prepare_worker(lifeline: Connection) -> None:
+    """Make this process a worker, which stops when the lifeline is cut."""
     atexit.register(gc.freeze)  # as in the parent
     threading.Thread(
         target=_stop_with_parent, args=(lifeline, stop_request_of_process()), daemon=True
@@ -120,8 +120,8 @@ def _stop_with_parent(lifeline: Connection, request: StopRequest) -> None:
         lifeline.recv_bytes()
     request.make()
     time.sleep(GRACE)
-    os._exit(STOPPED)  # whatever it does: what it kept is whole
+    os._exit(STOPPED)  # at any place: what was written is whole
 
 
-def _here() -> None:
+def _do_nothing() -> None:
     """Do nothing; the first call of an executor starts its processes."""

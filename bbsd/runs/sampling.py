@@ -1,4 +1,4 @@
-"""What a run's generations take, from a few small ones that are really lived."""
+"""The time that a run's generations take, measured on a few small ones."""
 
 from __future__ import annotations
 
@@ -21,40 +21,40 @@ if TYPE_CHECKING:
     from bbsd.solver.settings import Settings
 
 SHORT, LONG = 1, 3
-"""Episodes of sampled lifetimes; the first is lived with the structure an agent is born with."""
+"""Episodes of sampled lifetimes. No structure is searched for before the first."""
 FEW = 2
-"""Agents that take next to no time."""
+"""Agents whose episodes take next to no time."""
 SEVERAL = 20
-"""Agents whose tables are drawn to see how long it takes."""
+"""Random agents whose tables are drawn, to measure how long that takes."""
 LONG_ENOUGH, TOO_LONG = 0.2, 2.0
-"""Seconds of lives after which a sample is believed, and of a sample after which no larger one is tried."""
+"""Seconds of episodes that make a sample reliable, and seconds of a sample after which no larger one is tried."""
 LEAST = 1e-6
-"""Seconds; what is less cannot be measured."""
+"""Seconds; less cannot be measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """Seconds of the processor: until everything is compiled, and then of a generation, by what it consists of."""
+    """Processor seconds: until everything is compiled, and then of a generation, by what it consists of."""
 
     compiling: float
     breeding: float
-    """Of pools and figures, however many agents there are."""
+    """Of a generation's pools and metrics, however many agents there are."""
     agent: float
-    """Of an agent, however long it lives."""
+    """Of an agent, however long its lifetime is."""
     episode: float
     """Of an agent's episode."""
-    newborn: float
-    """Of a random agent's tables."""
-    hastened: float
-    """How much faster episodes are in several threads."""
+    random_agent: float
+    """Of drawing a random agent's tables."""
+    speedup: float
+    """How many times faster episodes are in several threads."""
 
     def generation(self, n_agents: int) -> float:
-        """A generation but for its episodes."""
+        """Return the seconds of a generation without its episodes."""
         return self.breeding + n_agents * self.agent
 
 
 def sample(problem: Problem, settings: Settings, key: int) -> Sample:
-    """Live and breed as a run does, with more and more agents until it takes long enough to be measured."""
+    """Run generations as a run does, with more and more agents until they take long enough to be measured."""
     first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
     state, _ = next_generation(
         initial_state(problem, settings, key), problem, settings.reduced(FEW, SHORT), key
@@ -69,9 +69,9 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
         min(LONG, settings.learning.episodes),
     )
     while True:
-        brief, began = seconds(n_agents, SHORT), perf_counter()
-        whole, clock = seconds(n_agents, lifetime), perf_counter() - began
-        if whole - brief > LONG_ENOUGH or whole > TOO_LONG:
+        short, began = seconds(n_agents, SHORT), perf_counter()
+        long, clock = seconds(n_agents, lifetime), perf_counter() - began
+        if long - short > LONG_ENOUGH or long > TOO_LONG:
             break
         if n_agents < settings.coevolution.agents:
             n_agents = min(4 * n_agents, settings.coevolution.agents)
@@ -79,22 +79,23 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
             lifetime = min(4 * lifetime, settings.learning.episodes)
         else:
             break
-    lives = whole - brief if lifetime > SHORT else whole - breeding
-    episode = max(lives, LEAST) / (n_agents * max(lifetime - SHORT, 1))
-    agent = max((brief - breeding) / n_agents - episode, 0.0)
-    hastened = min(max(1.0, whole / clock), problem.jobs)
-    newborn = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
-    return Sample(max(0.0, first - second), breeding, agent, episode, newborn, hastened)
+    episodes = long - short if lifetime > SHORT else long - breeding
+    episode = max(episodes, LEAST) / (n_agents * max(lifetime - SHORT, 1))
+    agent = max((short - breeding) / n_agents - episode, 0.0)
+    speedup = min(max(1.0, long / clock), problem.jobs)
+    random_agent = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
+    return Sample(max(0.0, first - second), breeding, agent, episode, random_agent, speedup)
 
 
-def _seconds(what: Callable[..., object], *arguments: object) -> float:
+def _seconds(function: Callable[..., object], *arguments: object) -> float:
+    """Return the processor time of a call."""
     began = process_time()
-    what(*arguments)
+    function(*arguments)
     return process_time() - began
 
 
 def _all_kernels(problem: Problem, settings: Settings, key: int) -> None:
-    """Call once whatever is compiled when it is called."""
+    """Call once everything that is compiled when it is called."""
     rehearse(problem, settings)
     agents = random_agents(problem, key, 1)
     for _ in detailed_outcomes(problem, agents, keys(key, 0, 1), settings.coevolution.generations):

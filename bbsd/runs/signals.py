@@ -1,7 +1,7 @@
-"""Ctrl-C as a request to stop, which is answered at the next episode.
+"""Ctrl-C as a request to stop, which takes effect before the next episode.
 
-An exception in the middle of anything can be lost: one that is raised while LLVM's objects are disposed of is only
-printed. So the first interrupt is recorded and answered between compiled calls; a second one is Python's own. A thread
+An exception in the middle of anything can be lost: one raised while LLVM's objects are being deleted is only printed.
+So the first interrupt is recorded and takes effect between compiled calls; a second one is Python's own. A thread
 watches for it too, since no handler runs before a compiled call returns.
 """
 
@@ -21,28 +21,28 @@ if TYPE_CHECKING:
     from bbsd.stopping import StopRequest
 
 GRACE = 1.3
-"""Seconds in which a design should have stopped by itself."""
+"""Seconds that a design has to stop by itself."""
 
 
 @contextmanager
 def interrupts_request_stop(overdue: Callable[[], object] | None = None) -> Iterator[None]:
-    """Turn interrupts into a stop request while inside.
+    """Turn interrupts inside into a stop request.
 
-    Only the main thread can; other threads leave signals as they are. So does a process that ignores interrupts: a
-    shell starts background jobs that way, and Ctrl-C is meant for another process. If the work has not stopped within
-    the grace period, `overdue` is called in another thread.
+    Only the main thread can do so; in other threads signals stay as they are. They also stay in a process that ignores
+    interrupts: a shell starts background jobs that way, and Ctrl-C is meant for another process. If the work has not
+    stopped within the grace period, `overdue` is called in another thread.
     """
     with stop_request_of_context() as request:
         is_main = threading.current_thread() is threading.main_thread()
         if is_main and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
-            with _handled(request), _watched(request, overdue):
+            with _handle_interrupts(request), _watch_in_thread(request, overdue):
                 yield
         else:
             yield
 
 
 @contextmanager
-def _handled(request: StopRequest) -> Iterator[None]:
+def _handle_interrupts(request: StopRequest) -> Iterator[None]:
     before = signal.getsignal(signal.SIGINT)
 
     def handle(_number: int, _frame: object) -> None:
@@ -57,7 +57,7 @@ def _handled(request: StopRequest) -> Iterator[None]:
 
 
 @contextmanager
-def _watched(request: StopRequest, overdue: Callable[[], object] | None) -> Iterator[None]:
+def _watch_in_thread(request: StopRequest, overdue: Callable[[], object] | None) -> Iterator[None]:
     reader, writer = socket.socketpair()
     writer.setblocking(False)
     over = threading.Event()

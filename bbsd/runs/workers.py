@@ -1,6 +1,6 @@
 """Runs side by side in several processes: this one, and workers.
 
-A worker keeps its runs' records itself, so nothing but answers has to come back.
+A worker writes its runs' records itself, so it sends back nothing but answers.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
 from bbsd.runs.following import Follower
-from bbsd.runs.processes import Processes, waiting
+from bbsd.runs.processes import Processes, waiting_processes
 from bbsd.runs.rehearsal import rehearse
 from bbsd.stopping import StopRequest, current_stop_request, raise_if_stopped
 
@@ -25,55 +25,55 @@ if TYPE_CHECKING:
 
     Submit = Callable[[int], Future[Architecture]]
 
-GLANCE = 0.1
-"""Seconds between two looks at how far the workers are."""
+REPORT_INTERVAL = 0.1
+"""Seconds between two looks at the workers' metrics."""
 
 
 class WorkerLost(UsageError):
-    """A worker that was ended from outside."""
+    """A worker that was killed from outside."""
 
-    advice = "go on with --resume; fewer --jobs need less memory"
+    advice = "continue with --resume; fewer --jobs need less memory"
 
     def __init__(self, folder: Path) -> None:
         super().__init__(
-            "a process that did one of the runs was killed, maybe by the system for want of memory; "
-            f"what was done is kept in {folder}"
+            "a process that did one of the runs was killed, maybe by the system for lack of memory; "
+            f"all finished generations are kept in {folder}"
         )
 
 
 def side_by_side(
-    command: Command, runs: list[int], jobs: int, tell: Listener | None, ready: Processes | None = None
+    command: Command, runs: list[int], jobs: int, listener: Listener | None, ready: Processes | None = None
 ) -> dict[int, Architecture]:
-    """The answers of these runs, several at a time; jobs that are left over are threads inside them.
+    """Complete these runs, several at a time, and return their answers; spare jobs are threads inside them.
 
-    Workers that are `ready` are taken, others are started. Raises what a run raised, WorkerLost, KeyboardInterrupt; all
-    others are stopped then.
+    Uses the workers that are `ready`, or starts new ones. Raises what a run raised, WorkerLost, KeyboardInterrupt,
+    after all other runs were stopped.
     """
     n_workers = min(len(runs), jobs) - 1
     threads = jobs // (n_workers + 1)
     own = command.with_threads(jobs - n_workers * threads)
     with (
-        nullcontext(ready) if ready is not None else waiting(n_workers) as processes,
-        _at_work(processes, command.with_threads(threads)) as submit,
+        nullcontext(ready) if ready is not None else waiting_processes(n_workers) as processes,
+        _working(processes, command.with_threads(threads)) as submit,
     ):
         # Everything is compiled once, here, while the workers import what they need.
         rehearse(own.problem, own.settings)
-        return _shared(own, runs, submit, n_workers, tell or (lambda _line: None))
+        return _share_runs(own, runs, submit, n_workers, listener or (lambda _line: None))
 
 
-def _shared(
-    command: Command, runs: list[int], submit: Submit, n_workers: int, tell: Listener
+def _share_runs(
+    command: Command, runs: list[int], submit: Submit, n_workers: int, listener: Listener
 ) -> dict[int, Architecture]:
-    """Whoever is free takes the next run: this process, and a thread of it for each worker."""
-    left, request = deque(runs), current_stop_request()
-    found: dict[int, Architecture] = {}
+    """Let this process, and a thread of it for each worker, take the next run whenever it is free."""
+    remaining, request = deque(runs), current_stop_request()
+    answers: dict[int, Architecture] = {}
     failed: dict[int, BaseException] = {}
     followers = [Follower(command.records(run).metrics) for run in runs]
 
-    def glance(_line: object = None) -> None:
+    def report(_line: object = None) -> None:
         for follower in followers:
             for line in follower.new_lines():
-                tell(line)
+                listener(line)
 
     def remote(run: int) -> Architecture:
         try:
@@ -82,46 +82,48 @@ def _shared(
             raise (KeyboardInterrupt if request.is_made else WorkerLost(command.folder.path)) from None
 
     try:
-        with ThreadPoolExecutor(n_workers) as pool, _stopped_at_errors(request):
-            busy = [pool.submit(_take_runs, remote, left, found, failed, request) for _ in range(n_workers)]
-            for run in _taken(left):
-                found[run] = command.complete(run, glance)
-            while wait(busy, GLANCE).not_done:
+        with ThreadPoolExecutor(n_workers) as pool, _stop_at_errors(request):
+            busy = [
+                pool.submit(_take_runs, remote, remaining, answers, failed, request) for _ in range(n_workers)
+            ]
+            for run in _taken(remaining):
+                answers[run] = command.complete(run, report)
+            while wait(busy, REPORT_INTERVAL).not_done:
                 raise_if_stopped()
-                glance()
-            glance()
+                report()
+            report()
     except KeyboardInterrupt:
         _raise_first(failed)
         raise
     _raise_first(failed)
-    return found
+    return answers
 
 
 def _take_runs(
-    do: Callable[[int], Architecture],
-    left: deque[int],
-    found: dict[int, Architecture],
+    complete: Callable[[int], Architecture],
+    remaining: deque[int],
+    answers: dict[int, Architecture],
     failed: dict[int, BaseException],
     request: StopRequest,
 ) -> None:
-    for run in _taken(left):
+    for run in _taken(remaining):
         try:
-            found[run] = do(run)
+            answers[run] = complete(run)
         except BaseException as error:  # noqa: BLE001 - raised by the thread that waits for all
             failed[run] = error
-            left.clear()
+            remaining.clear()
             request.make()
 
 
-def _taken(left: deque[int]) -> Iterator[int]:
-    """The runs that nobody took before, one by one."""
+def _taken(remaining: deque[int]) -> Iterator[int]:
+    """Yield the runs that nobody has taken yet, and take them."""
     with suppress(IndexError):
         while True:
-            yield left.popleft()
+            yield remaining.popleft()
 
 
 def _raise_first(failed: dict[int, BaseException]) -> None:
-    """Raise what went wrong in the first run in which something did; others were only stopped."""
+    """Raise the error of the first run that failed by itself; others were only stopped."""
     for _, error in sorted(failed.items()):
         if not isinstance(error, KeyboardInterrupt):
             raise error
@@ -130,8 +132,8 @@ def _raise_first(failed: dict[int, BaseException]) -> None:
 
 
 @contextmanager
-def _stopped_at_errors(request: StopRequest) -> Iterator[None]:
-    """Have everything stopped when something goes wrong in here."""
+def _stop_at_errors(request: StopRequest) -> Iterator[None]:
+    """Make the request to stop when something inside raises."""
     try:
         yield
     except BaseException:
@@ -140,11 +142,11 @@ def _stopped_at_errors(request: StopRequest) -> Iterator[None]:
 
 
 @contextmanager
-def _at_work(processes: Processes, command: Command) -> Iterator[Submit]:
-    """Have processes do runs of a command until they are done or are to stop."""
+def _working(processes: Processes, command: Command) -> Iterator[Submit]:
+    """Give a function that submits runs of a command to processes, and end these at exit or at a stop request."""
     request = current_stop_request()
-    request.when_made(processes.cut)
-    with _stopped_at_errors(request):
+    request.when_made(processes.stop)
+    with _stop_at_errors(request):
         yield lambda run: processes.submit(_complete, command, run)
     processes.dismiss()
 

@@ -137,8 +137,8 @@ def test_a_worker_that_is_killed_is_told_of_and_gone_on_without(long, tmp_path):
     assert (running.returncode, out) == (2, "")
     told, advice = err.splitlines()
     assert told.startswith("bbsd: a process that did one of the runs was killed, maybe by the system")
-    assert told.endswith("what was done is kept in run")
-    assert advice.strip() == "go on with --resume; fewer --jobs need less memory"
+    assert told.endswith("all finished generations are kept in run")
+    assert advice.strip() == "continue with --resume; fewer --jobs need less memory"
     wait_until(lambda: not members(running.pid))
     assert ended(SPEC, *LONG, "--out", "run", "-q", "--resume", cwd=tmp_path)[0] == 0
     assert files(tmp_path / "run") == long

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.runs.processes import ENVIRONMENT, STOPPED, waiting
+from bbsd.runs.processes import ENVIRONMENT, STOPPED, waiting_processes
 
 SOON = 20
 """Seconds, on a machine that has much else to do."""
@@ -30,7 +30,7 @@ def assert_gone(process):
 
 
 def test_what_is_submitted_is_done_in_another_process():
-    with waiting(1) as processes:
+    with waiting_processes(1) as processes:
         worker = processes.submit(os.getpid).result()
         assert worker != os.getpid()
         assert processes.submit(max, 3, 5).result() == 5
@@ -39,9 +39,9 @@ def test_what_is_submitted_is_done_in_another_process():
 
 SHARING = """
 import os
-from bbsd.runs.processes import waiting
+from bbsd.runs.processes import waiting_processes
 
-with waiting(1) as processes:
+with waiting_processes(1) as processes:
     print(processes.submit(os.getenv, "BBSD_CACHE_DIR").result() == os.environ["BBSD_CACHE_DIR"])
     print(os.environ["BBSD_CACHE_DIR"])
 """
@@ -60,22 +60,22 @@ def test_a_temporary_cache_is_told_of_once_and_is_the_workers_too(tmp_path):
 
 
 def test_a_worker_ignores_interrupts():
-    with waiting(1) as processes:
+    with waiting_processes(1) as processes:
         worker = processes.submit(os.getpid).result()
         os.kill(worker, signal.SIGINT)
         assert processes.submit(os.getpid).result() == worker
 
 
 def test_without_a_parent_that_wants_it_a_worker_stops_wherever_it_is():
-    with waiting(1) as processes:
+    with waiting_processes(1) as processes:
         forever = processes.submit(time.sleep, 1000)
-        processes.cut()
+        processes.stop()
         with pytest.raises(BrokenExecutor, match=f"EXIT\\({STOPPED}\\)"):
             forever.result()
 
 
 def test_what_was_dismissed_does_what_was_submitted_before():
-    with waiting(1) as processes:
+    with waiting_processes(1) as processes:
         answer = processes.submit(pow, 2, 10)
         processes.dismiss()
         assert answer.result() == 1024
@@ -83,7 +83,7 @@ def test_what_was_dismissed_does_what_was_submitted_before():
 
 def test_nobody_waits_for_workers_that_nothing_was_submitted_to():
     began = time.monotonic()
-    with pytest.raises(OSError, match="no more"), waiting(2):
+    with pytest.raises(OSError, match="no more"), waiting_processes(2):
         raise OSError("no more")
     assert time.monotonic() - began < SOON
     assert not any(name in os.environ for name in ENVIRONMENT)

@@ -8,7 +8,7 @@ from bbsd.runs import workers
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
 from bbsd.runs.folder import Folder
-from bbsd.runs.processes import waiting
+from bbsd.runs.processes import waiting_processes
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.workers import WorkerLost, side_by_side
 from bbsd.stopping import StopRequest
@@ -47,7 +47,7 @@ def test_runs_side_by_side_have_the_answers_and_records_of_runs_one_after_the_ot
 
 def test_workers_that_are_ready_are_taken_also_where_they_are_more_than_needed(command):
     alone, together = command("alone"), command("together")
-    with waiting(2) as ready:
+    with waiting_processes(2) as ready:
         found = side_by_side(together, [1, 2], 2, None, ready)
         assert ready.used
     assert plain(found[run] for run in (1, 2)) == plain(complete_runs(alone, 1)[1:])
@@ -75,7 +75,7 @@ def test_jobs_that_are_left_over_are_threads(monkeypatch, command, jobs, expecte
         raise Enough
 
     monkeypatch.setattr(workers, "waiting", nullcontext)
-    monkeypatch.setattr(workers, "_at_work", at_work)
+    monkeypatch.setattr(workers, "_working", at_work)
     with pytest.raises(Enough):
         side_by_side(command("jobs"), [*range(RUNS)], jobs, None)
     n_workers, threads, own = expected
