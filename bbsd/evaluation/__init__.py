@@ -1,4 +1,4 @@
-"""Episodes of finished designs, and their statistics."""
+"""Episodes of agents and of finished designs, and their statistics."""
 
 from bbsd.evaluation.agents import Agents, agents_of
 from bbsd.evaluation.enumeration import NotEnumerable, enumerate_starts

@@ -20,7 +20,7 @@ Integers = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Agents:
-    """Agents of individuals: pools, members (n_agents, n_behaviors), structures (n_agents, n_layers)."""
+    """Agents as individuals of pools, members (n_agents, n_behaviors), and structures (n_agents, n_layers)."""
 
     pools: tuple[Pool, ...]
     members: Integers
@@ -29,22 +29,25 @@ class Agents:
     def __len__(self) -> int:
         return len(self.members)
 
-    def __getitem__(self, which: Integers) -> Agents:
-        return Agents(self.pools, self.members[which], self.structures[which])
+    def __getitem__(self, indices: Integers) -> Agents:
+        return Agents(self.pools, self.members[indices], self.structures[indices])
 
     def with_structures(self, structures: Integers) -> Agents:
-        """The same agents with other structures."""
+        """Return the same agents with other structures."""
         return Agents(self.pools, self.members, structures)
 
     def architecture(self, agent: int) -> Architecture:
-        """One agent by itself."""
+        """Return the architecture of one agent."""
         tables = tuple(pool[self.members[agent, index]] for index, pool in enumerate(self.pools))
         return Architecture(tables, self.structures[agent])
 
 
 def agents_of(architectures: Sequence[Architecture]) -> Agents:
-    """Each architecture as an agent of its own."""
+    """Return agents, one for each architecture."""
     n_behaviors = len(architectures[0].tables)
-    pools = tuple(np.stack([each.tables[index] for each in architectures]) for index in range(n_behaviors))
+    pools = tuple(
+        np.stack([architecture.tables[index] for architecture in architectures])
+        for index in range(n_behaviors)
+    )
     members = np.repeat(np.arange(len(architectures))[:, None], n_behaviors, axis=1)
-    return Agents(pools, members, np.stack([each.structure for each in architectures]))
+    return Agents(pools, members, np.stack([architecture.structure for architecture in architectures]))

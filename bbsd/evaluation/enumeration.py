@@ -1,4 +1,4 @@
-"""Exact evaluation: where only starting values are drawn, and from finitely many, every start is tried once."""
+"""Exact evaluation: where only the start is drawn, and from finitely many values, every start is run once."""
 
 from __future__ import annotations
 
@@ -19,14 +19,15 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.constants import Constants
 
 MAX_STARTS = 1_000_000
+"""Starts that are run at most."""
 
 
 class NotEnumerable(UsageError):
-    """Why the starts of a spec cannot all be tried."""
+    """A spec whose starts cannot all be run; the message says why."""
 
 
 def enumerate_starts(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]]:
-    """A problem whose n-th start is chosen by the key n, and the probability of each start (n_starts,).
+    """Return a problem whose key n chooses the n-th start, and the probability of each start (n_starts,).
 
     Raises NotEnumerable where something is drawn after the start, from a continuous range, or from too many values.
     """
@@ -39,8 +40,8 @@ def enumerate_starts(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]
     total = int(np.prod([len(weights) for _, weights in choices], dtype=np.float64)) if choices else 1
     if total > MAX_STARTS:
         raise NotEnumerable(f"there are {total} starts; at most {MAX_STARTS} are tried")
-    chosen, weights = _combined(draws, choices, total, graph)
-    start = {slot: _with(node, chosen, graph) for slot, node in episode.start.items()}
+    digits, weights = _combine(draws, choices, total, graph)
+    start = {slot: _with_digits(node, digits, graph) for slot, node in episode.start.items()}
     meaning = replace(problem.meaning, episode=replace(episode, start=start))
     return replace(problem, meaning=meaning), weights
 
@@ -50,7 +51,7 @@ def _draws(nodes: Iterable[Node]) -> list[Node]:
 
 
 def _choices(draw: Node, constants: Constants) -> tuple[float, list[float]]:
-    """The first value of a draw and the probabilities of it and those that follow."""
+    """Return the first value of a draw, and the probabilities of this value and of those that follow it."""
     distribution = draw.draw.distribution
     values = [constants.static(operand) for operand in draw.operands]
     match distribution, values:
@@ -67,12 +68,12 @@ def _choices(draw: Node, constants: Constants) -> tuple[float, list[float]]:
     raise NotEnumerable(f"a start is drawn by {distribution}(...), which has no finite list of values")
 
 
-def _combined(
+def _combine(
     draws: list[Node], choices: list[tuple[float, list[float]]], total: int, graph: Graph
 ) -> tuple[dict[int, Node], npt.NDArray[np.float64]]:
-    """Each draw as a digit of the start's number, and the starts' probabilities."""
+    """Return each draw as a digit of the start's number, by the draw's number, and the starts' probabilities."""
     number = graph.leaf("start", None, Kind.NUMBER, Level.LANE)
-    found, weights, stride = {}, np.ones(total), 1
+    digits, weights, stride = {}, np.ones(total), 1
     for draw, (first, probabilities) in zip(draws, choices, strict=True):
         digit = graph.apply(
             "modulo",
@@ -80,19 +81,19 @@ def _combined(
             graph.number(len(probabilities)),
         )
         value = graph.apply("+", digit, graph.number(first)) if first else digit
-        found[draw.number] = graph.apply(">", value, graph.number(0)) if draw.kind is Kind.TRUTH else value
+        digits[draw.number] = graph.apply(">", value, graph.number(0)) if draw.kind is Kind.TRUTH else value
         weights *= np.array(probabilities)[np.arange(total) // stride % len(probabilities)]
         stride *= len(probabilities)
-    return found, weights
+    return digits, weights
 
 
-def _with(node: Node, chosen: dict[int, Node], graph: Graph) -> Node:
+def _with_digits(node: Node, digits: dict[int, Node], graph: Graph) -> Node:
     return rebuilt(
-        node, graph, lambda leaf, operands: chosen.get(leaf.number) or _copied(leaf, operands, graph)
+        node, graph, lambda leaf, operands: digits.get(leaf.number) or _copy(leaf, operands, graph)
     )
 
 
-def _copied(leaf: Node, operands: list[Node], graph: Graph) -> Node:
+def _copy(leaf: Node, operands: list[Node], graph: Graph) -> Node:
     if leaf.operation == "gather":
         return graph.copy(leaf, operands)
     return leaf

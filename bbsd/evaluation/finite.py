@@ -1,4 +1,4 @@
-"""Reinforcement that is not finite: an error of the run that names the term, the step and the robot."""
+"""Reinforcement that is not finite: an error that names the term, the step and the robot."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ class RewardNotFinite(Exception):
     value: float
     step: int
     robot: int
-    place: str
-    """Where in the run: the generation, the agent, the episode."""
+    episode: str
+    """The generation and episode, or the episode of an evaluation."""
 
     def __str__(self) -> str:
-        what = f"the reward term {self.term}" if self.term else "the sum of all rewards"
-        return f"{what} was {self.value} in step {self.step} for robot {self.robot} ({self.place})"
+        quantity = f"the reward term {self.term}" if self.term else "the sum of all rewards"
+        return f"{quantity} was {self.value} in step {self.step} for robot {self.robot} ({self.episode})"
 
 
 def require_finite(
@@ -38,17 +38,17 @@ def require_finite(
     keys: npt.NDArray[np.uint64],
     returns: npt.NDArray[np.float64],
     generation: int,
-    place: str = "",
+    episode: str = "",
 ) -> None:
-    """Raise RewardNotFinite if a return (n_agents,) is not finite: then some reinforcement in it was not."""
+    """Raise RewardNotFinite if any return (n_agents,) is not finite, and name the term by tracing the episode again."""
     if np.isfinite(returns).all():
         return
     agent = int(np.flatnonzero(~np.isfinite(returns))[0])
     traced = trace(problem, agents.architecture(agent), int(keys[agent]), generation)
-    where = place or f"episode {agent + 1} of those evaluated"
+    where = episode or f"episode {agent + 1} of those evaluated"
     for term, robots in traced.rewards.items():
         for robot, values in enumerate(robots):
-            odd = np.flatnonzero(~np.isfinite(values))
-            if odd.size:
-                raise RewardNotFinite(term, float(values[odd[0]]), int(odd[0]) + 1, robot, where)
+            steps = np.flatnonzero(~np.isfinite(values))
+            if steps.size:
+                raise RewardNotFinite(term, float(values[steps[0]]), int(steps[0]) + 1, robot, where)
     raise RewardNotFinite("", float(returns[agent]), len(traced.steps), 0, where)

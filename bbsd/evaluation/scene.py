@@ -1,4 +1,4 @@
-"""What a view shows of an episode: its picture's values at the start and after every step."""
+"""The scene of an episode: the values of the view's picture at the start and after every step."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Floats = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """Where things were: a moment for the start and for each step taken; as they are at the end, what is there once.
+    """Where things are in an episode, at its start and after each step; what is drawn once, as it is at the end.
 
     `places` are (n_robots, n_moments, 2 or 3): x, y and perhaps a radius; `headings` (n_robots, n_moments) in radians;
     `area` two corners (4,); `circles` (n_circles, 3); `grid` (n_rows, n_columns), not 0 where a wall is;
@@ -64,7 +64,7 @@ def scene(picture: Picture, moments: Sequence[Stored], constants: Sequence[float
 
 
 def starting_values(meaning: Meaning, key: int, constants: Sequence[float]) -> dict[Slot, float]:
-    """Everything that is stored when an episode starts; `key` names the episode's random streams."""
+    """Return all values stored when an episode starts; `key` names the episode's random streams."""
 
     def leaf(node: Node, operands: list[Any]) -> float:
         if node.operation != "draw":
@@ -77,7 +77,7 @@ def starting_values(meaning: Meaning, key: int, constants: Sequence[float]) -> d
 
 
 def _values(nodes: Sequence[Node], stored: Stored, step: int, constants: Sequence[float]) -> list[float]:
-    """The values of nodes that read what is stored; truths are stored as 0 and 1."""
+    """Return the values of nodes that read stored values; truths are stored as 0 and 1."""
 
     def leaf(node: Node, operands: list[Any]) -> Any:  # noqa: ANN401 - a number or a truth
         match node.operation:

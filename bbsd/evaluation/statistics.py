@@ -1,4 +1,4 @@
-"""What an evaluation reports: the return with its interval, by term, and who was in control."""
+"""The statistics of an evaluation: the return with its interval, reward terms, and who was in control."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ QUANTILE_95 = NormalDist().inv_cdf(0.975)
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """A mean, the standard deviation of what it is the mean of, and the normal 95 % interval of the mean."""
+    """The mean and standard deviation of a sample, and the normal 95 % interval of the mean."""
 
     mean: float
     sd: float
@@ -34,7 +34,7 @@ class Interval:
 
 
 def interval(values: Floats) -> Interval:
-    """The mean of independent values (n,) with its interval; with one value the interval is unknown (NaN)."""
+    """Return the mean of independent values (n,) with its interval, which is NaN for a single value."""
     center = mean(values)
     if len(values) < 2:
         return Interval(center, float("nan"), float("nan"), float("nan"), len(values))
@@ -45,7 +45,7 @@ def interval(values: Floats) -> Interval:
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """The episodes of one design, or of many random ones."""
+    """The statistics of episodes of one design, or of many random agents."""
 
     returns: Interval
     episodes: int
@@ -53,13 +53,13 @@ class Evaluation:
     reward_terms: dict[str, float]
     """Mean per episode."""
     control_share: dict[str, float]
-    """Of all robot-steps, by behavior and `nobody`."""
+    """Share of all robot-steps, by behavior and `nobody`."""
     steps: float
     """Mean length of an episode."""
     not_finite: dict[str, int]
-    """Steps in which a value was infinite or not a number, by its name; only those that were."""
+    """Steps in which a value was infinite or not a number, by the value's name; without zeros."""
     expectation_share: dict[str, float] = field(default_factory=dict)
-    """By behavior that expects something: of the robot-steps that it controlled, those after which that held.
+    """By behavior that expects something: the share of its controlled robot-steps after which the expectation was met.
 
     NaN where it never controlled.
     """
@@ -82,7 +82,7 @@ class Evaluation:
 
 
 def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: int) -> Evaluation:
-    """Sum up the outcomes of some agents' episodes, agent after agent, each with equally many.
+    """Summarize the outcomes of agents' episodes, agent after agent, equally many for each.
 
     With several agents the interval is that of the mean over agents, since episodes of one agent belong together.
     """
@@ -97,12 +97,12 @@ def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: in
     if agents > 1:
         by_agent = interval(row_means(returns.reshape(agents, -1)))
         spread = Interval(spread.mean, spread.sd, by_agent.low, by_agent.high, len(returns))
-    named = _named(problem, terms, control, steps_taken, not_finite, met, float(len(returns)))
+    named = _means_by_name(problem, terms, control, steps_taken, not_finite, met, float(len(returns)))
     return Evaluation(spread, len(returns), agents, *named)
 
 
 def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
-    """All but the returns summed up over the episodes, so that memory does not grow with them."""
+    """Sum everything but the returns over the episodes, so that memory does not grow with them."""
     return replace(
         outcome,
         credit=column_sums(outcome.credit),
@@ -115,7 +115,7 @@ def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
 
 
 def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], weights: Floats) -> Evaluation:
-    """The exact expectation over all episodes there can be, each with its probability; weights (n,) sum to 1."""
+    """Return the exact expectation over all possible episodes by their probabilities (n,), which sum to 1."""
     parts = list(outcomes)
     returns, terms, control, steps_taken, not_finite, met = (
         np.concatenate([getattr(part, name) for part in parts])
@@ -123,15 +123,15 @@ def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], w
     )
     center = expectation(weights, returns)
     sd = sqrt(expectation(weights, (returns - center) ** 2))
-    by_term, by_control, by_held = (
+    by_term, by_control, by_met = (
         np.array([expectation(weights, column) for column in columns.T]) for columns in (terms, control, met)
     )
     steps, counts = expectation(weights, steps_taken), column_sums(not_finite)
-    named = _named(problem, by_term, by_control, steps, counts, by_held, 1.0)
+    named = _means_by_name(problem, by_term, by_control, steps, counts, by_met, 1.0)
     return Evaluation(Interval(center, sd, center, center, len(weights)), len(weights), 1, *named, exact=True)
 
 
-def _named(
+def _means_by_name(
     problem: Problem,
     terms: Floats,
     control: Floats,
@@ -140,7 +140,7 @@ def _named(
     met: Floats,
     episodes: float,
 ) -> tuple[dict[str, float], dict[str, float], float, dict[str, int], dict[str, float]]:
-    """Sums as named means and shares."""
+    """Return sums as means and shares by name, in the order of the fields of Evaluation."""
     robots = problem.meaning.spec.environment.robots
     who = (*problem.names, "nobody")
     by_term = {

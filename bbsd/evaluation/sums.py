@@ -15,25 +15,25 @@ if TYPE_CHECKING:
 
 
 def mean(values: NDArray[np.float64]) -> float:
-    """The mean of values (n,)."""
+    """Return the mean of values (n,)."""
     return fsum(values.tolist()) / len(values)
 
 
 def deviation(values: NDArray[np.float64]) -> float:
-    """The standard deviation of a sample (n,), n at least 2."""
+    """Return the standard deviation of a sample (n,), n at least 2."""
     return sqrt(fsum(((values - mean(values)) ** 2).tolist()) / (len(values) - 1))
 
 
 def expectation(weights: NDArray[np.float64], values: NDArray[np.float64]) -> float:
-    """The mean of values (n,) with weights (n,), which need not sum to 1."""
+    """Return the mean of values (n,) with weights (n,), which need not sum to 1."""
     return fsum((weights * values).tolist()) / fsum(weights.tolist())
 
 
 def column_sums(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The sum of each column of (n, k); (k,)."""
+    """Return the sum of each column of (n, k); (k,)."""
     return np.array([fsum(column) for column in values.T.tolist()])
 
 
 def row_means(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The mean of each row of (n, k); (n,)."""
+    """Return the mean of each row of (n, k); (n,)."""
     return np.array([mean(row) for row in values])

@@ -1,4 +1,4 @@
-"""One episode, step by step: everything that was stored, defined, controlled and earned."""
+"""The trace of one episode, step by step: stored and defined values, controlling behaviors, reward terms."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.tables.labels import Labels
 
 EXPECTATION = ("", "failed", "held")
-"""What the numbers of a record mean."""
+"""The meaning of the numbers 0, 1, 2 in a record."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -41,12 +41,12 @@ class Trace:
     rewards: dict[str, list[Floats]]
     robots: int
     expectations: list[list[str]] = field(default_factory=list)
-    """For each robot whether what its controlling behavior expects `held` or `failed`, '' where that expects nothing.
+    """For each robot whether the expectation of its controlling behavior `held` or `failed`, '' where it has none.
 
     Empty where no behavior of the spec expects anything.
     """
     scene: Scene | None = None
-    """What the spec's view shows, if it has one."""
+    """The scene of the spec's view, if it has one."""
 
     @property
     def columns(self) -> list[str]:
@@ -63,16 +63,18 @@ class Trace:
     @property
     def rows(self) -> list[tuple[int | float | str, ...]]:
         """One tuple a step, in the order of the columns."""
-        words = [
-            each for robot in range(self.robots) for each in (self.controlling[robot], self.actions[robot])
+        control = [
+            column
+            for robot in range(self.robots)
+            for column in (self.controlling[robot], self.actions[robot])
         ]
-        earned = [values.tolist() for robots in self.rewards.values() for values in robots]
-        columns = (*self.values.values(), *words, *self.expectations, *earned)
+        rewards = [values.tolist() for robots in self.rewards.values() for values in robots]
+        columns = (*self.values.values(), *control, *self.expectations, *rewards)
         return list(zip(self.steps.tolist(), *columns, strict=True))
 
 
 def trace(problem: Problem, architecture: Architecture, key: int, generation: int) -> Trace:
-    """Live one episode as plain Python and note everything."""
+    """Run one episode as plain Python and record everything."""
     meaning, steps = problem.meaning, problem.meaning.spec.environment.steps
     columns = traced_columns(meaning)
     record = np.full((steps, len(columns)), np.nan)
@@ -80,15 +82,15 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
     steps_taken = team.traced_episode(key, architecture.structure, record)
-    lived = _read(problem, columns, record[:steps_taken])
-    return replace(lived, scene=_scene(lived, problem.meaning, key, generation))
+    traced = _read(problem, columns, record[:steps_taken])
+    return replace(traced, scene=_scene(traced, problem.meaning, key, generation))
 
 
-def _scene(lived: Trace, meaning: Meaning, key: int, generation: int) -> Scene | None:
+def _scene(traced: Trace, meaning: Meaning, key: int, generation: int) -> Scene | None:
     if meaning.episode.picture is None:
         return None
     constants = meaning.constants.vector(generation)
-    later = [dict(zip(lived.values, row, strict=True)) for row in zip(*lived.values.values(), strict=True)]
+    later = [dict(zip(traced.values, row, strict=True)) for row in zip(*traced.values.values(), strict=True)]
     moments = [starting_values(meaning, key, constants), *later]
     return scene(meaning.episode.picture, moments, constants)
 
@@ -122,7 +124,7 @@ def _read(problem: Problem, columns: list[Column], record: Floats) -> Trace:
 
 
 def _cells_of(problem: Problem, slot: Slot) -> Labels:
-    """The cells' names of a sensor that is a partition, as the behavior that sees it has them."""
+    """Return the names of the cells of a sensor that is a partition, none of any other slot."""
     written = problem.meaning.spec.environment.sensors.get(slot[0])
     if written is None or not is_partition(written):
         return ()

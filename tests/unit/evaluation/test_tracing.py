@@ -95,7 +95,7 @@ def test_a_reward_that_is_not_finite_is_named(bad, step, robot, value):
     ) as error:
         returns_of(problem, agents_of([given_architecture(problem)]), keys(1, 0, 2), 1)
     assert str(error.value.value) == str(value)
-    assert "episode 1" in error.value.place
+    assert "episode 1" in error.value.episode
 
 
 def test_a_sum_that_overflows_is_named():

@@ -71,7 +71,7 @@ def test_nothing_is_written(tmp_path, monkeypatch):
 def test_it_is_told_to_people_and_programs(price):
     assert json.loads(json.dumps(price_plain(price))) == json.loads(json.dumps(asdict(price)))
     text = price_text(price)
-    assert f"{price.episodes:,} lived" in text
+    assert f"{price.episodes:,} in the generations" in text
     assert all(table.behavior in text for table in price.tables)
 
 

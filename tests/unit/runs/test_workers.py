@@ -74,7 +74,7 @@ def test_jobs_that_are_left_over_are_threads(monkeypatch, command, jobs, expecte
         seen.extend([count, of_workers.problem.jobs])
         raise Enough
 
-    monkeypatch.setattr(workers, "waiting", nullcontext)
+    monkeypatch.setattr(workers, "waiting_processes", nullcontext)
     monkeypatch.setattr(workers, "_working", at_work)
     with pytest.raises(Enough):
         side_by_side(command("jobs"), [*range(RUNS)], jobs, None)
