@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from bbsd.architecture import designed_text, given_architecture, require_writable, tidied
+from bbsd.architecture import designed_text, given_architecture, require_writable, tidy_tables
 from bbsd.compiler import Detail, Problem, compile_meaning, kernel_source
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.errors import Diagnosis, SpecError, UsageError
@@ -324,7 +324,7 @@ def design(
         except KeyboardInterrupt:
             raise interrupted from None
     folder.gather(runs)
-    architecture = tidied(problem.meaning, judged.architecture)
+    architecture = tidy_tables(problem.meaning, judged.architecture)
     folder.write_architecture(designed_text(loaded, architecture))
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
     folder.write_run_file(run_identity, {"structure": names, "return": asdict(judged.evaluation.returns)})

@@ -1,11 +1,11 @@
-"""What was given or learned: an architecture, what it does in every situation, and how a spec says it."""
+"""Architectures: given or learned tables and structure, their policy, and their text as a spec."""
 
 from bbsd.architecture.architecture import Architecture, HolesLeft, given_architecture, holes
 from bbsd.architecture.document import designed_text, require_writable
 from bbsd.architecture.policy import JointSpace, behavior_keys, joint_space, policy
 from bbsd.architecture.rules import rules_of
 from bbsd.architecture.spec_changes import spec_changes
-from bbsd.architecture.tidy import tidied
+from bbsd.architecture.tidy import tidy_tables
 
 __all__ = [
     "Architecture",
@@ -20,5 +20,5 @@ __all__ = [
     "require_writable",
     "rules_of",
     "spec_changes",
-    "tidied",
+    "tidy_tables",
 ]

@@ -1,4 +1,4 @@
-"""An architecture (3): what was given or learned, tables and a structure."""
+"""An architecture (3): tables and a structure, given by a spec or learned."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ class Architecture:
 
 
 class HolesLeft(UsageError):
-    """A design was wanted, and the spec leaves something open."""
+    """A design without holes is needed, and the spec leaves something open."""
 
     advice = "have it designed: bbsd design; or measure random agents: bbsd evaluate --fill random"
 
 
 def given_architecture(problem: Problem) -> Architecture:
-    """The architecture that a spec without holes gives.
+    """Return the architecture that a spec without holes gives.
 
     Open cells of a behavior that the given structure leaves out are no holes; they become No Action.
 
     Raises:
         HolesLeft: something is open; the message says what.
     """
-    if found := holes(problem):
-        raise HolesLeft(f"the design has holes: {'; '.join(found)}")
+    if descriptions := holes(problem):
+        raise HolesLeft(f"the design has holes: {'; '.join(descriptions)}")
     tables = [
         np.where(table.given == OPEN_CELL, NO_ACTION, table.given).astype(np.uint8)
         for table in problem.tables
@@ -49,7 +49,7 @@ def given_architecture(problem: Problem) -> Architecture:
 
 
 def holes(problem: Problem) -> list[str]:
-    """What a spec leaves to be designed, in words: `stop: 2 of 2 cells open`, `5 of 5 layers open`."""
+    """Return what a spec leaves open, in words: `stop: 2 of 2 cells open`, `5 of 5 layers open`."""
     layers = problem.layers.tolist()
     n_open = layers.count(OPEN_LAYER)
     evolved = [table for index, table in enumerate(problem.tables) if problem.evolves(index)]
@@ -57,5 +57,5 @@ def holes(problem: Problem) -> list[str]:
     return cells + ([f"{n_open} of {_counted(len(layers), 'layer')} open"] if n_open else [])
 
 
-def _counted(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -1,4 +1,4 @@
-"""The file that a design comes back as, and whether it could be written at all."""
+"""The text of a design: the designer's file with its holes filled, and whether it could be too large to write."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.text import Data, DataPath, Deletion
 
-WORDS = (MOST_WORDS, MOST_WORDS // 10, NO_WORDS)
-"""Of a behavior's rules: as many as can be read; fewer, where many behaviors are too much for one file; none."""
+WORD_LIMITS = (MOST_WORDS, MOST_WORDS // 10, NO_WORDS)
+"""Words of a behavior's rules, one limit after another until the file is not too large; in the end none, but tables."""
 
 
 def designed_text(loaded: Loaded, architecture: Architecture) -> str:
-    """The designer's file with what was set and its holes filled; everything else is as it was.
+    """Return the designer's file with overrides set and holes filled, and all else as it was.
 
-    But for a comment that names an editor's schema by a relative path: in a run's folder that leads nowhere. Raises
-    TooLargeError, but not for what `require_writable` let pass.
+    Only a comment that names an editor's schema by a relative path is left out: in a run's folder that leads nowhere.
+    Raises TooLargeError, but never after `require_writable`.
     """
-    for most_words in WORDS[:-1]:
+    for most_words in WORD_LIMITS[:-1]:
         with suppress(TooLargeError):
             return _text(loaded, architecture, most_words)
-    return _text(loaded, architecture, WORDS[-1])
+    return _text(loaded, architecture, WORD_LIMITS[-1])
 
 
 def require_writable(loaded: Loaded) -> None:
-    """Raise SpecError if there are designs of a spec that could not be written, even with all tables as text."""
+    """Raise SpecError if a design of the spec could be too large to write, even with all tables as text."""
     largest = _largest(loaded.meaning)
     try:
         if not (loaded.lineage.flat and _fits(loaded, largest)):
@@ -54,7 +54,7 @@ def require_writable(loaded: Loaded) -> None:
 
 
 def _fits(loaded: Loaded, largest: Architecture) -> bool:
-    """Whether the data can be written anew as a whole, the last resort of `replace_blocks`."""
+    """Return whether the data can be written anew as a whole, the last resort of `replace_blocks`."""
     data: Data = loaded.data
     for path, value in spec_changes(loaded.meaning, largest, NO_WORDS).items():
         data = with_change(data, path, value)
@@ -70,7 +70,7 @@ def _text(loaded: Loaded, architecture: Architecture, most_words: int) -> str:
 
 
 def _largest(meaning: Meaning) -> Architecture:
-    """An architecture that takes the most characters: last actions, and behaviors with long names."""
+    """Return an architecture that takes the most characters: last actions, and behaviors with long names."""
     modules, structure = meaning.episode.modules, meaning.structure
     tables = (np.full(module.n_cells, len(module.actions), np.uint8) for module in modules)
     n_open = structure.layers.count(OPEN_LAYER)
@@ -83,15 +83,13 @@ def _is_given(layer: int) -> bool:
 
 
 def _too_large(loaded: Loaded, path: DataPath) -> Diagnosis:
-    """What is said of a design that could not be written, because of what goes to a path."""
-    what, advice = "what fills the holes", "make it smaller"
+    """Return the diagnosis of a spec whose designs could not be written because of the value at a path."""
+    filling, advice = "what fills the holes", "make it smaller"
     if len(path) == 3 and path[-1] == "table":
         table = next(module.table for module in loaded.meaning.episode.modules if module.name == path[1])
-        what, advice = (
+        filling, advice = (
             f"the {table.given.count(OPEN_CELL):,} open cells of {path[1]}",
             "cut the inputs more coarsely",
         )
-    message = (
-        f"with {what}, a design would have more than 1 MB or 50 000 keys and values and could not be written"
-    )
+    message = f"with {filling}, a design would have more than 1 MB or 50 000 keys and values and could not be written"
     return Diagnosis("BB048", message, loaded.lineage.place(path[:2], on_key=True), advice)

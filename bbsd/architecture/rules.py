@@ -1,4 +1,4 @@
-"""Tables as the rules that a designer would write, in the words of the spec."""
+"""From a table to the rules that a designer would write, in the words of the spec."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def rules_of(
     given: Sequence[Rule] = (),
     most_words: float = inf,
 ) -> list[RuleData] | None:
-    """A table as a short list of rules that decide every cell as the table does, the first match first.
+    """Return a short list of rules that decide every cell as the table does, each cell by the first match.
 
-    Rules that the designer gave are kept, and further ones put where the first rule stands that leaves its
-    cells open; at the end, if none does. None where the further ones would have more words than wanted.
+    Rules that the designer gave are kept, and new ones inserted before the first that leaves its cells open; at the
+    end, if none does. None where the new ones would have more than `most_words`.
 
     Args:
         table: (n_cells,), 0 for No Action, k for the k-th action.
@@ -52,7 +52,7 @@ def rules_of(
         given: rules that agree with the table and leave a cell open at least.
         most_words: decisions and named cells, counted together.
     """
-    first = next((place for place, rule in enumerate(given) if _decision(rule) == OPEN), len(given))
+    first = next((index for index, rule in enumerate(given) if _decision(rule) == OPEN), len(given))
     before, after = given[:first], [rule for rule in given[first:] if _decision(rule) != OPEN]
     is_open = _cells(given, inputs, actions) == OPEN_CELL
     is_decided = _cells(before, inputs, actions) != OPEN_CELL
@@ -68,33 +68,33 @@ def rules_of(
     if n_words_of(designed, inputs) > most_words:
         return None
     rules: list[RuleData] = [{"when": conditions(box, inputs), "do": words[value]} for box, value in designed]
-    return [*map(_written, before), *rules, *last, *map(_written, after)]
+    return [*map(_rule_data, before), *rules, *last, *map(_rule_data, after)]
 
 
 def boxes_of(table: NDArray[np.uint8], inputs: Inputs) -> tuple[list[tuple[Box, int]], int]:
-    """The boxes and decisions of a table's rules, and what is decided otherwise. Shapes as in `rules_of`."""
+    """Return the boxes and decisions of a table's rules, and the decision otherwise; shapes as in `rules_of`."""
     default = most_common(table)
     values = np.where(table == default, KEEP, table.astype(np.int64))
     return cover(values, sizes_of(inputs)), default
 
 
 def n_words_of(boxes: Sequence[tuple[Box, int]], inputs: Inputs) -> int:
-    """How many decisions and cells the rules for some boxes name."""
+    """Return the number of decisions and cells that the rules for some boxes name."""
     return sum(n_words(box, sizes_of(inputs)) for box, _ in boxes)
 
 
 def most_common(decisions: NDArray[np.uint8]) -> int:
-    """The most common decision; of equals the lowest, which is No Action if it is among them."""
+    """Return the most common decision; of equals the lowest, which is No Action if it is among them."""
     return int(np.bincount(decisions).argmax())
 
 
 def sizes_of(inputs: Inputs) -> list[int]:
-    """How many cells each input has."""
+    """Return the number of cells of each input."""
     return [len(cells) for cells in inputs.values()]
 
 
 def conditions(box: Box, inputs: Inputs) -> dict[str, Data]:
-    """What a rule for a box says under `when`: a cell, or a list of cells, of each input that matters."""
+    """Return what a rule for a box says under `when`: a cell, or a list of cells, of each input that matters."""
     named = {
         name: cell_words(chosen, cells)
         for (name, cells), chosen in zip(inputs.items(), box, strict=True)
@@ -113,16 +113,16 @@ def _decision(rule: Rule) -> str:
     return rule.otherwise if isinstance(rule, Otherwise) else rule.do
 
 
-def _written(rule: Rule) -> RuleData:
+def _rule_data(rule: Rule) -> RuleData:
     if isinstance(rule, Otherwise):
         return {"otherwise": rule.otherwise}
     words = {name: [_datum(cell) for cell in cells] for name, cells in rule.when.items()}
-    when: Data = {name: each[0] if len(each) == 1 else each for name, each in words.items()}
+    when: Data = {name: cells[0] if len(cells) == 1 else cells for name, cells in words.items()}
     return {"when": when, "do": rule.do}
 
 
 def cell_words(chosen: Sequence[int], cells: Labels) -> list[Data]:
-    """Cells as a rule names them; of a cut, neighbors as one range."""
+    """Return cells as a rule names them; of a cut, neighbors as one range."""
     bounds = _bounds(cells)
     if bounds is None:
         return [_datum(cells[cell]) for cell in chosen]
@@ -130,14 +130,14 @@ def cell_words(chosen: Sequence[int], cells: Labels) -> list[Data]:
 
 
 def _datum(cell: str) -> Data:
-    """A cell's label as the YAML value that reads best: `true` and `5` without quotes."""
+    """Return a cell's label as the YAML value that reads best: `true` and `5` without quotes."""
     if cell in TRUTH_CELLS:
         return cell == TRUTH_CELLS[1]
     return int(cell) if WHOLE_NUMBER.fullmatch(cell) else cell
 
 
 def _bounds(cells: Labels) -> list[str] | None:
-    """The bounds of a cut, read off its labels; None where a range of them would not be understood."""
+    """Return the bounds of a cut, read off its labels; None where a range of them would not be understood."""
     if not cells[0].startswith("below "):
         return None
     bounds = [cells[0].removeprefix("below "), *(cell.split(" to ", 1)[-1] for cell in cells[1:-1])]
@@ -151,7 +151,7 @@ def _bounds(cells: Labels) -> list[str] | None:
 
 
 def _runs(chosen: Iterable[int]) -> list[range]:
-    """Neighbors together."""
+    """Return cells as runs of neighbors."""
     runs: list[range] = []
     for cell in chosen:
         if runs and runs[-1].stop == cell:

@@ -21,15 +21,15 @@ if TYPE_CHECKING:
     from bbsd.text import Data, DataPath, Deletion
 
 MOST_WORDS = 3000
-"""Of the rules of a behavior: some five hundred rules, a tenth of a second to read. Beyond that nobody reads them."""
+"""Words of a behavior's rules: some five hundred rules, a tenth of a second to read; nobody reads more."""
 NO_WORDS = -1
-"""Not even one rule."""
+"""The limit that no rule keeps, not even one."""
 
 
 def spec_changes(
     meaning: Meaning, architecture: Architecture, most_words: int = MOST_WORDS
 ) -> dict[DataPath, Data | Deletion]:
-    """What to write where, so that the spec has no holes, needs no seed, and means this architecture.
+    """Return what to write at which path, so that the spec has no holes, needs no seed, and means this architecture.
 
     Only what is open is filled: behaviors with open cells, a structure with open layers, and constants that
     were drawn. What was given as a table stays one; other behaviors get rules, or a table where rules would
@@ -39,21 +39,21 @@ def spec_changes(
     behaviors: dict[DataPath, Data | Deletion] = {}
     for index, (module, table) in enumerate(modules):
         if module.table.is_open and meaning.structure.may_hold(index):
-            found = _cells(module, meaning.spec.behaviors[module.name], table, most_words)
-            behaviors |= {("behaviors", module.name, key): value for key, value in found.items()}
+            values = _cells(module, meaning.spec.behaviors[module.name], table, most_words)
+            behaviors |= {("behaviors", module.name, key): value for key, value in values.items()}
     return {**drawn_constants(meaning), **behaviors, **_structure(meaning, architecture)}
 
 
 def _cells(
-    module: Module, written: Behavior, table: NDArray[np.uint8], most_words: int
+    module: Module, behavior: Behavior, table: NDArray[np.uint8], most_words: int
 ) -> dict[str, Data | Deletion]:
-    """What to write under a behavior's keys for its cells."""
-    if written.table is not None:
-        return {"table": filled_text(written.table, table.tolist())}
-    rules = rules_of(table, module.inputs, [*module.actions], written.rules or (), most_words)
+    """Return what to write under a behavior's keys for its cells."""
+    if behavior.table is not None:
+        return {"table": filled_text(behavior.table, table.tolist())}
+    rules = rules_of(table, module.inputs, [*module.actions], behavior.rules or (), most_words)
     if rules is not None:
         return {"rules": [*rules]}
-    removed: dict[str, Data | Deletion] = {"rules": DELETE} if written.rules is not None else {}
+    removed: dict[str, Data | Deletion] = {"rules": DELETE} if behavior.rules is not None else {}
     return removed | {"table": text_of_table(table.tolist(), module.inputs)}
 
 

@@ -1,7 +1,7 @@
 """Cells that never matter, set so that the rules become short.
 
-Evolution leaves whatever it drew in the cells in which a behavior never has its way, because a layer above always
-controls there. What an agent does is the same for any decision in them, in every joint cell.
+Evolution leaves random decisions in the cells in which a behavior never controls, because a layer above always does.
+Whatever they hold, the agent does the same in every joint cell.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.behaviors import Module
 
 
-def tidied(meaning: Meaning, architecture: Architecture) -> Architecture:
-    """An architecture that does the same in every joint cell, with rules that are not longer; given cells stay.
+def tidy_tables(meaning: Meaning, architecture: Architecture) -> Architecture:
+    """Return an architecture that does the same in every joint cell, with rules that are not longer; given cells stay.
 
-    Where the joint space is too large to go through, it is the architecture itself.
+    Where the joint space is too large to go through, the architecture itself is returned.
     """
     space = joint_space(meaning)
     if not space.is_small:
@@ -40,24 +40,24 @@ def tidied(meaning: Meaning, architecture: Architecture) -> Architecture:
 
 
 def _where_decisions_matter(space: JointSpace, architecture: Architecture) -> list[NDArray[np.bool_]]:
-    """For each behavior the cells (n_cells,) in which it decides what happens in some joint cell."""
+    """Return for each behavior which of its cells (n_cells,) decide the action in some joint cell."""
     matters = [np.zeros(len(table), np.bool_) for table in architecture.tables]
-    taken = np.zeros(space.sizes, np.bool_)
+    controlled = np.zeros(space.sizes, np.bool_)
     for behavior in reversed(architecture.structure.tolist()):
         table = architecture.tables[behavior]
         excited = decisions(space, behavior, np.ones_like(table)) > 0
         cells = np.broadcast_to(own_cells(space, behavior), space.sizes)
-        matters[behavior][np.unique(cells[excited & ~taken])] = True
-        taken |= decisions(space, behavior, table) > 0
+        matters[behavior][np.unique(cells[excited & ~controlled])] = True
+        controlled |= decisions(space, behavior, table) > 0
     return matters
 
 
 def _shortest(module: Module, table: NDArray[np.uint8], matters: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """The table as it is, or with one decision in all cells that do not matter, whichever has fewer rules."""
+    """Return the table as it is, or with one decision in all cells that do not matter, whichever has fewer rules."""
     free = ~matters & (np.frombuffer(module.table.given, np.uint8) == OPEN_CELL)
     if not free.any():
         return table
     common = np.uint8(most_common(table[matters])) if matters.any() else np.uint8(NO_ACTION)
     tidy = np.where(free, common, table)
-    lengths = [len(boxes_of(each, module.inputs)[0]) for each in (tidy, table)]
+    lengths = [len(boxes_of(candidate, module.inputs)[0]) for candidate in (tidy, table)]
     return tidy if lengths[0] <= lengths[1] else table
