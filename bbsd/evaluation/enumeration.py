@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.errors import UsageError
-from bbsd.expression.graph import Graph, Level, Node, needed, rebuilt
+from bbsd.expression.graph import Graph, Level, Node, needed, replace_leaves
 from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def _combine(
 
 
 def _with_digits(node: Node, digits: dict[int, Node], graph: Graph) -> Node:
-    return rebuilt(
+    return replace_leaves(
         node, graph, lambda leaf, operands: digits.get(leaf.number) or _copy(leaf, operands, graph)
     )
 

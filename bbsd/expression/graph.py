@@ -268,8 +268,8 @@ def evaluate(outputs: Iterable[Node], leaf: Callable[[Node, list[Any]], Any]) ->
     return [values[node.number] for node in outputs]
 
 
-def rebuilt(output: Node, graph: Graph, leaf: Callable[[Node, list[Node]], Node]) -> Node:
-    """The same value with every leaf (and draw, with its rebuilt operands) replaced by what `leaf` gives."""
+def replace_leaves(output: Node, graph: Graph, leaf: Callable[[Node, list[Node]], Node]) -> Node:
+    """The same value with every leaf (and draw, with its replace_leaves operands) replaced by what `leaf` gives."""
     found: dict[int, Node] = {}
     for node in needed([output]):
         operands = [found[operand.number] for operand in node.operands]

@@ -84,7 +84,7 @@ class Findings:
     unseen: list[str] = field(default_factory=list)
     """What a behavior would need to know of the world and of other robots."""
 
-    def tell(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
+    def report(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
         """Add a mistake; raises TooManyMistakesError when no more are wanted."""
         self.mistakes[path, Mistake(code, message, span, advice)] = None
         if len(self.mistakes) >= MAX_MISTAKES:
@@ -96,7 +96,7 @@ class Findings:
         self.seen.add(place)
         return first
 
-    def told_below(self, path: Path) -> bool:
+    def has_mistakes_below(self, path: Path) -> bool:
         """Whether there is a mistake at a path or below it."""
         return any(place[: len(path)] == path for place, _ in self.mistakes)
 
@@ -164,5 +164,5 @@ class Scope:
 
     def mistake(self, code: str, message: str, span: Span, advice: str = "") -> Node:
         """Tell of a mistake; the value is unknown from then on."""
-        self.findings.tell(self.path, code, message, span, advice)
+        self.findings.report(self.path, code, message, span, advice)
         return self.graph.unknown

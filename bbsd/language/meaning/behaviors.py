@@ -84,15 +84,15 @@ def elaborate_behavior(
         for action, sets in behavior.actions.items()
     }
     if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
-        names.findings.tell((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
+        names.findings.report((*path, "actions"), "BB038", f"a behavior has 1 to {MAX_ACTIONS} actions", KEY)
     per_robot = [_inputs(behavior, decision, scope, (*path, "inputs"), robot) for robot in names.robots]
     inputs: Inputs = {key: partition.cells for key, partition in per_robot[0].items()}
     if prod(len(cells) for cells in inputs.values()) > MAX_CELLS:
         message, advice = f"this table would have more than {MAX_CELLS} cells", "cut the inputs more coarsely"
-        names.findings.tell((*path, "inputs"), "BB039", message, KEY, advice)
+        names.findings.report((*path, "inputs"), "BB039", message, KEY, advice)
         return None
     unusable = {*names.unusable, *(set(behavior.inputs) - inputs.keys())}
-    if isinstance(behavior.inputs, list) and names.findings.told_below((*path, "inputs")):
+    if isinstance(behavior.inputs, list) and names.findings.has_mistakes_below((*path, "inputs")):
         unusable |= (
             _inputs_in_rules(behavior) - inputs.keys()
         )  # one of them may be the name that was misspelled
@@ -116,10 +116,10 @@ def _given_table(
         return table_of_rules(behavior.rules, inputs, actions, (*path, "rules"), findings, unusable)
     if behavior.rules is not None:
         advice = "keep one of them; what a spec extends is taken away by rules: null or table: null"
-        findings.tell((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)
+        findings.report((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)
     is_known = (
         len(inputs) == len(behavior.inputs)
-        and not findings.told_below((*path, "inputs"))
+        and not findings.has_mistakes_below((*path, "inputs"))
         and names.unusable.keys().isdisjoint({*behavior.inputs, *actions})
     )
     return table_of_text(behavior.table, inputs, actions, (*path, "table"), findings, is_known=is_known)
@@ -141,7 +141,7 @@ def _action(
         if target not in names.spec.environment.state:
             if target not in names.unusable:
                 message, advice = _not_state(target, names), "actions set a robot's own state"
-                names.findings.tell(target_path, "BB033", message, KEY, advice)
+                names.findings.report(target_path, "BB033", message, KEY, advice)
             continue
         evaluate = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
         values = tuple(
@@ -194,7 +194,7 @@ def _inputs(
         }
         for index, name in enumerate(behavior.inputs):
             if name in behavior.inputs[:index] and name not in decision.names.unusable:
-                decision.names.findings.tell((*path, index), "BB040", f"{name} is listed twice")
+                decision.names.findings.report((*path, index), "BB040", f"{name} is listed twice")
     return {name: partition for name, partition in partitions.items() if partition is not None}
 
 
@@ -221,13 +221,13 @@ def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, rob
     if name in environment.sensors and is_partition(environment.sensors[name]):
         return decision.partition(name, robot)
     if not (name in environment.sensors or name in environment.state or name in environment.world):
-        names.findings.tell(path, "BB041", *_not_listed(name, names))
+        names.findings.report(path, "BB041", *_not_listed(name, names))
         return None
     value = elaboration.value(Name(name, WHOLE), scope.at(path, robot))
     if isinstance(value, tuple) or Kind.NUMBER in (value.kind, _kind_by_form(environment.sensors.get(name))):
         what = "a list" if isinstance(value, tuple) else "a number"
         advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
         message = f"an input needs a partition, and {name} is {what}"
-        names.findings.tell(path, "BB030", message, WHOLE, advice)
+        names.findings.report(path, "BB030", message, WHOLE, advice)
         return None
     return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("cell_of", value))

@@ -7,7 +7,17 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from bbsd.expression import elaboration
-from bbsd.expression.graph import LEAVES, Graph, Level, Node, evaluate, needed, rebuilt, value_of, whole_nodes
+from bbsd.expression.graph import (
+    LEAVES,
+    Graph,
+    Level,
+    Node,
+    evaluate,
+    needed,
+    replace_leaves,
+    value_of,
+    whole_nodes,
+)
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
@@ -136,7 +146,9 @@ def _with_draws(value: Value, key: int, scope: Scope, written: Nested) -> Value:
         texts = written if isinstance(written, tuple) else (written,) * len(value)
         return tuple(_with_draws(item, key, scope, text) for item, text in zip(value, texts, strict=True))
     try:
-        return rebuilt(value, scope.graph, lambda node, operands: _draw(node, operands, key, scope.graph))
+        return replace_leaves(
+            value, scope.graph, lambda node, operands: _draw(node, operands, key, scope.graph)
+        )
     except _DrawsWithGenerationError:
         span = expressions_in(written)[0].tree.span
         return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)

@@ -61,7 +61,7 @@ def report_duplicates(namespace: Iterable[tuple[str, Path]], findings: Findings)
 def _report_duplicate(name: str, path: Path, first: Path, findings: Findings) -> None:
     message = f"{name} is already the name of something in {'.'.join(str(part) for part in first[:-1])}"
     advice = "constants, world, state, definitions and sensors share their names"
-    findings.tell(path, "BB025", message, KEY, advice)
+    findings.report(path, "BB025", message, KEY, advice)
 
 
 def report_unordered(
@@ -119,7 +119,7 @@ def _report_circles(
     for circle in circles:
         message = f"a circle: {' needs '.join(circle)}"
         advice = "keep one of the values as state, from step to step"
-        findings.tell(paths[circle[0]], "BB063", message, KEY, advice)
+        findings.report(paths[circle[0]], "BB063", message, KEY, advice)
     return dict.fromkeys(involved, Unusable())
 
 
@@ -137,5 +137,5 @@ def _report_long_chains(
             uses[name]
         ):  # `uses[name].isdisjoint` would go through all of `too_long`
             message = f"{name} needs too long a chain of values, each computed from the next"
-            findings.tell(paths[name], "BB060", message, KEY, "keep one of them as state")
+            findings.report(paths[name], "BB060", message, KEY, "keep one of them as state")
     return too_long

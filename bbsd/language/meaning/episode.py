@@ -96,7 +96,7 @@ def elaborate_episode(names: Names) -> Episode | None:
     modules = tuple(_modules(names, decision, kinds))
     if sum(len(module.actions) for module in modules) > MAX_ACTIONS_IN_ALL:
         message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
-        names.findings.tell(("behaviors",), "BB038", message, KEY)
+        names.findings.report(("behaviors",), "BB038", message, KEY)
     choices = tuple(names.graph.leaf("choice", robot, Kind.CELL, Level.LANE) for robot in names.robots)
 
     acted = _act(now, modules, choices, names)
@@ -134,7 +134,7 @@ def _modules(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Itera
         n_cells += module.n_cells if module else 0
         if n_cells > MAX_CELLS_IN_ALL:
             message = f"from here on, all tables together have more than {MAX_CELLS_IN_ALL:,} cells"
-            names.findings.tell(("behaviors", name, "inputs"), "BB039", message, KEY)
+            names.findings.report(("behaviors", name, "inputs"), "BB039", message, KEY)
             return
 
 
@@ -219,7 +219,7 @@ def _apply_dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], name
         elif name not in names.unusable:
             hint = did_you_mean(name, acted)
             message = f"{name} is neither world nor state, so it has no dynamics{hint}"
-            names.findings.tell(path, "BB033", message, KEY)
+            names.findings.report(path, "BB033", message, KEY)
     return then
 
 

@@ -80,17 +80,17 @@ def _probabilities(
     if node.kind is Kind.UNKNOWN:
         return ()
     if unknown:
-        findings.tell(path, "BB066", f"this depends on the {unknown.pop()}, which is not known here")
+        findings.report(path, "BB066", f"this depends on the {unknown.pop()}, which is not known here")
         return ()
     n_operations = sum(1 for node in nodes if node.operands)
     if n_operations * len(numbers) > MAX_OPERATIONS:
         message = f"this takes {n_operations} steps to compute, too many for {len(numbers):,} {unit}s"
-        findings.tell(path, "BB068", message, WHOLE, f"write it shorter, or let there be fewer {unit}s")
+        findings.report(path, "BB068", message, WHOLE, f"write it shorter, or let there be fewer {unit}s")
         return ()
     values = []
     for number, value in zip(numbers, values_for(node, map(float, numbers)), strict=True):
         if not 0 <= value <= 1:
-            findings.tell(path, "BB043", f"this is {value:g} in {unit} {number}; it must be from 0 to 1")
+            findings.report(path, "BB043", f"this is {value:g} in {unit} {number}; it must be from 0 to 1")
             return ()
         values.append(float(value))
     return tuple(values)

@@ -39,17 +39,17 @@ def elaborate_structure(spec: Spec, findings: Findings, broken: frozenset[str] =
         layers = spec.design.layers or len(behaviors)
         if layers > len(behaviors) and not broken:
             message = f"{layers} layers, but only {len(behaviors)} behaviors, each of which can stand once"
-            findings.tell(("design", "layers"), "BB042", message)
+            findings.report(("design", "layers"), "BB042", message)
         return _without_forced_layer((OPEN_LAYER,) * min(layers, len(behaviors)), all_behaviors)
     if not spec.structure:
-        findings.tell(
+        findings.report(
             ("structure",), "BB042", "a structure without layers; leave the key out to have it learned"
         )
     given = [_layer(word, index, spec, findings, broken) for index, word in enumerate(spec.structure)]
     candidates = tuple(behavior for behavior in all_behaviors if behavior not in given)
     if given.count(OPEN_LAYER) > len(candidates) and not broken:
         message = f"{given.count(OPEN_LAYER)} open layers, but {len(candidates)} behaviors to fill them"
-        findings.tell(("structure",), "BB042", message)
+        findings.report(("structure",), "BB042", message)
     return _without_forced_layer(tuple(layer for layer in reversed(given) if layer is not None), candidates)
 
 
@@ -68,9 +68,9 @@ def _layer(word: str, index: int, spec: Spec, findings: Findings, broken: frozen
     if word not in behaviors:
         if word not in broken:
             message = f'"{word}" is not a behavior{did_you_mean(word, [*behaviors, OPEN])}'
-            findings.tell(path, "BB042", message)
+            findings.report(path, "BB042", message)
         return None
     if word in (spec.structure or ())[:index]:
-        findings.tell(path, "BB042", f"{word} stands in the structure twice")
+        findings.report(path, "BB042", f"{word} stands in the structure twice")
         return None
     return behaviors.index(word)

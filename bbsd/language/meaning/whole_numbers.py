@@ -34,7 +34,7 @@ def report_fractions(episode: Episode | None, constants: Constants, findings: Fi
     for path, span, purpose, node in findings.wholes:
         if not whole[node.number]:
             message = f"{purpose} must be a whole number, and this need not be one"
-            findings.tell(path, "BB064", message, span, "round it: floor(...) or round(...)")
+            findings.report(path, "BB064", message, span, "round it: floor(...) or round(...)")
 
 
 def _slots_read(nodes: Sequence[Node]) -> dict[Slot, bool]:

@@ -13,7 +13,7 @@ from bbsd.expression.graph import (
     compute,
     evaluate,
     needed,
-    rebuilt,
+    replace_leaves,
     whole_nodes,
 )
 from bbsd.expression.kinds import Kind
@@ -88,7 +88,7 @@ def test_levels_are_the_highest_of_the_operands() -> None:
 def test_rebuilding_replaces_leaves_and_folds_again() -> None:
     graph = Graph()
     node = graph.apply("*", graph.apply("+", slot(graph, "x"), graph.number(1)), graph.number(2))
-    again = rebuilt(node, graph, lambda _leaf, _operands: graph.number(4))
+    again = replace_leaves(node, graph, lambda _leaf, _operands: graph.number(4))
     assert again is graph.number(10)
 
 

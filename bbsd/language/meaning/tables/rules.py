@@ -45,12 +45,14 @@ def table_of_rules(
             continue
         n_matched += prod(len(cells) for cells in matched)
         if n_matched > MAX_MATCHED:
-            findings.tell(path, "BB039", f"these rules match more than {MAX_MATCHED} cells, one by one", KEY)
+            findings.report(
+                path, "BB039", f"these rules match more than {MAX_MATCHED} cells, one by one", KEY
+            )
             break
         fresh = [cell for cell in _cells_of_block(matched, sizes) if undecided[cell]]
         if not fresh:
             message = "this rule never applies: the rules before it decide all its cells"
-            findings.tell((*path, index), "BB037", message)
+            findings.report((*path, index), "BB037", message)
         for cell in fresh:
             given[cell], undecided[cell] = decision, 0
     return Table(bytes(given))
@@ -79,7 +81,7 @@ def _decision(
             f'"{word}" is not an action of this behavior{hint}',
             f"its actions: {', '.join(actions)}" if actions else "",
         )
-        findings.tell((*path, key), "BB036", message, WHOLE, advice)
+        findings.report((*path, key), "BB036", message, WHOLE, advice)
     return None
 
 
@@ -92,7 +94,7 @@ def _matched(
         if name not in inputs and name not in unusable:
             hint = did_you_mean(name, inputs) or f"; {_inputs_advice(inputs)}"
             message = f'"{name}" is not an input of this behavior{hint}'
-            findings.tell((*path, "when", name), "BB034", message, KEY)
+            findings.report((*path, "when", name), "BB034", message, KEY)
     matched = [_cells_matched(name, cells, when, path, findings) for name, cells in inputs.items()]
     understood = [cells for cells in matched if cells is not None]
     return understood if when.keys() <= inputs.keys() and len(understood) == len(matched) else None
@@ -111,7 +113,7 @@ def _cells_matched(
     for index, (word, matched) in enumerate(zip(when[name], named, strict=True)):
         if matched is None:
             message = f'"{word}" is not a cell of {name}{_did_you_mean(word, cells)}'
-            findings.tell((*path, "when", name, index), "BB035", message, WHOLE, _cells_advice(cells))
+            findings.report((*path, "when", name, index), "BB035", message, WHOLE, _cells_advice(cells))
     if None in named:
         return None
     return sorted({cell for matched in named for cell in matched or ()})

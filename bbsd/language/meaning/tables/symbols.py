@@ -51,9 +51,9 @@ def table_of_text(
         wrong |= {symbol for symbol in used & CELLS.keys() if len(actions) < CELLS[symbol] < OPEN_CELL}
     for symbol in sorted(wrong, key=text.index)[:MAX_REPORTED]:
         message, advice = _wrong_symbol(symbol, actions)
-        findings.tell(path, "BB046", message, Span(text.index(symbol), 1), advice)
+        findings.report(path, "BB046", message, Span(text.index(symbol), 1), advice)
     if is_known and len(compact) != n_cells:
-        findings.tell(path, "BB046", *_wrong_length(text, len(compact), inputs))
+        findings.report(path, "BB046", *_wrong_length(text, len(compact), inputs))
     if wrong or len(compact) != n_cells:
         return Table(bytes([OPEN_CELL]) * n_cells)
     return Table(compact.translate(CODES).encode("latin-1"))
