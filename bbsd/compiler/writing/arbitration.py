@@ -7,11 +7,13 @@ from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.writing.loop_fission import written
-from bbsd.compiler.writing.precedence import ATOM, COMPARISON, Text, grouped, infix
-from bbsd.compiler.writing.schedule import last, stages
+from bbsd.compiler.writing.emission import emitter_of
+from bbsd.compiler.writing.loop_fission import loop_lines
+from bbsd.compiler.writing.precedence import ATOM, Text, grouped, infix, name_text
+from bbsd.compiler.writing.schedule import first_stage_with, stages
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
+from bbsd.expression.operations import BINDING
 
 if TYPE_CHECKING:
     from bbsd.compiler.writing.blocks import Block
@@ -19,20 +21,20 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.expression.graph import Node
 
-MOST_NESTED = 8
-"""Bids compared in one expression."""
+MOST_BIDS = 8
+"""Bids compared in one expression, so that lines can be read."""
 ACTION_BITS = 16
-"""A priority is the layer shifted by so many bits, plus what makes a choice the action's number."""
+"""A priority is the layer shifted by so many bits, plus the number of actions of the behaviors before."""
 
 
 @dataclass
 class Arbitration:
-    """Writes how each robot's controlling action is found."""
+    """What finds the action that controls each robot."""
 
     function: RolloutFunction
 
     @cached_property
-    def kept(self) -> list[tuple[str, str]]:
+    def arrays(self) -> list[tuple[str, str]]:
         """For each behavior the arrays of its priority, and of its table: a word, or where its row of cells begins.
 
         The priority of a behavior with one action has that action's choice added already: it is all it can bid.
@@ -46,44 +48,47 @@ class Arbitration:
             for shape in self.function.shapes
         ]
 
-    def start(self) -> list[str]:
-        """Every lane's priorities and tables: lanes refer to individuals of the pools."""
-        lines = []
-        for index, (shape, (priority, table)) in enumerate(zip(self.function.shapes, self.kept, strict=True)):
+    def start(self, block: Block) -> None:
+        """Store every lane's priorities and tables: lanes refer to individuals of the pools."""
+        for index, (shape, (priority, table)) in enumerate(
+            zip(self.function.shapes, self.arrays, strict=True)
+        ):
             individual = f"individuals[{index}, base + lane]"
             row = f"table_offsets[{index}] + {individual} * {shape.n_cells}"
-            offer = " + 1" if shape.n_actions == 1 else ""
-            lines.append(f"{priority}[lane] = priorities[{index}, base + lane]{offer}")
-            lines.append(
-                f"{table}[lane] = {f'packed_tables[{index}, {individual}]' if shape.packed else row}"
-            )
-        return lines
+            choice = " + 1" if shape.n_actions == 1 else ""
+            block.store(f"{priority}[lane]", Text(f"priorities[{index}, base + lane]{choice}"))
+            word = f"packed_tables[{index}, {individual}]"
+            block.store(f"{table}[lane]", Text(word if shape.packed else row))
 
     def look_up(self) -> list[str]:
-        """Tables too large for a word: their cells in one loop, the look-ups in another that does not vectorize."""
+        """Return the lines that look up tables too large for a word.
+
+        Their cells are found in one loop, the look-ups done in another that does not vectorize.
+        """
         if not self._looked_up:
             return []
-        function, emitter = self.function, self.function.emitter("step", hinted=False)
+        function = self.function
         large = {index for index, _ in self._looked_up}
         cells = [node for index in large for robot in function.episode.modules[index].cells for node in robot]
-        emitter.prepare(cells)
-        block, stores, looks = emitter.blocks.stage(self.stage), [], []
+        emitter = emitter_of(function, cells, hinted=False)
+        block, cell_stores, look_ups = emitter.blocks.stage(self.stage), [], []
         for (index, robot), (cell, choice) in self._looked_up.items():
-            stores.append(f"{function.at(cell)} = {self._cell(index, robot, emitter, block)[0]}")
-            row = f"{self.kept[index][1]}[lane]"
-            looks.append(f"{function.at(choice)} = tables[{row} + {function.at(cell)}]")
-        block.lines += stores
-        return written(emitter.blocks, function, apart=looks)
+            cell_stores.append((function.at(cell), self._cell(index, robot, emitter, block)))
+            row = f"{self.arrays[index][1]}[lane]"
+            look_ups.append(f"{function.at(choice)} = tables[{row} + {function.at(cell)}]")
+        for element, text in cell_stores:
+            block.store(element, text)
+        return loop_lines(emitter.blocks, function, apart=look_ups)
 
     @cached_property
     def stage(self) -> int:
         """The stage of a step in which the robots decide."""
         level = Level.EACH if self.function.looped else Level.LANE
-        return last(self.sensed, stages(self.sensed, 0), level)
+        return first_stage_with(self.sensed, stages(self.sensed, 0), level)
 
     @property
     def sensed(self) -> list[Node]:
-        """What decisions depend on."""
+        """The values that decisions depend on."""
         return [node for module in self.function.episode.modules for node in module.nodes]
 
     @cached_property
@@ -102,59 +107,58 @@ class Arbitration:
 
     def decide(self, robot: int, emitter: Emitter, block: Block) -> None:
         """Find the number of the action that controls a robot; 0 is nobody's."""
-        highest, last_one = "0", len(self.function.shapes) - 1
-        for index in range(len(self.function.shapes)):
+        function = self.function
+        highest, last = Text("0"), len(function.shapes) - 1
+        for index in range(len(function.shapes)):
             active, bid = self._bid(index, robot, emitter, block)
-            highest = self.function.call_of("maximum_where", highest, active, bid)
-            if index % MOST_NESTED == MOST_NESTED - 1 and index < last_one:
-                name = self.function.namer(self.function.robots_name("highest", robot))
-                block.assign(name, highest, Kind.CELL)
-                highest = name
-        mask = (1 << ACTION_BITS) - 1
-        block.assign(self.function.actions[robot], f"{highest} & {mask}", Kind.CELL)
-        block.names[self.function.episode.choices[robot].number] = self.function.actions[robot]
+            highest = function.call_of("maximum_where", highest, active, bid)
+            if index % MOST_BIDS == MOST_BIDS - 1 and index < last:
+                name = function.namer(function.robots_name("highest", robot))
+                highest = block.define(name, highest, Kind.CELL)
+        action = infix("&", highest, Text(str((1 << ACTION_BITS) - 1)))
+        block.define(function.actions[robot], action, Kind.CELL, function.episode.choices[robot])
 
-    def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> tuple[str, str]:
-        """Whether a behavior is activated, and what it then bids for control: its priority and its choice."""
+    def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> tuple[Text, Text]:
+        """Return whether a behavior is activated, and what it then bids for control: its priority and its choice."""
         function, module = self.function, self.function.episode.modules[index]
-        looked = self._choice(index, robot, emitter, block)
-        choice = function.namer(function.robots_name(f"choice_{module.name}", robot))
-        block.assign(choice, looked, Kind.CELL)
-        active, excited = (f"{choice} > 0", COMPARISON), emitter.text(module.excited[robot], block)
-        if excited[0] != "True":
+        value = self._choice(index, robot, emitter, block)
+        name = function.namer(function.robots_name(f"choice_{module.name}", robot))
+        choice = block.define(name, value, Kind.CELL)
+        active, excited = infix(">", choice, Text("0")), emitter.text(module.excited[robot], block)
+        if excited.source != "True":
             active = infix("&", active, excited)
-        priority = f"{self.kept[index][0]}[lane]"
-        return active[0], priority if function.shapes[index].n_actions == 1 else f"{priority} + {choice}"
+        priority = Text(f"{self.arrays[index][0]}[lane]")
+        return active, priority if function.shapes[index].n_actions == 1 else infix("+", priority, choice)
 
-    def _choice(self, index: int, robot: int, emitter: Emitter, block: Block) -> str:
-        """The value of the behavior's table at the robot's cell."""
+    def _choice(self, index: int, robot: int, emitter: Emitter, block: Block) -> Text:
+        """Return the value of the behavior's table at the robot's cell."""
         shape = self.function.shapes[index]
         if not shape.packed:
-            return self.function.at(self._looked_up[index, robot][1])
-        table, cell = self.kept[index][1], self._cell(index, robot, emitter, block)
-        if cell[0] == "0":
-            return f"{table}[lane] & {shape.mask}"
-        shift = cell if shape.bits == 1 else infix("*", cell, (str(shape.bits), ATOM))
-        return f"({table}[lane] >> {grouped(shift, ATOM)}) & {shape.mask}"
+            return Text(self.function.at(self._looked_up[index, robot][1]))
+        table, cell = f"{self.arrays[index][1]}[lane]", self._cell(index, robot, emitter, block)
+        if cell.source == "0":
+            return infix("&", Text(table), Text(str(shape.mask)))
+        shift = cell if shape.bits == 1 else infix("*", cell, Text(str(shape.bits)))
+        source = f"({table} >> {grouped(shift, ATOM)}) & {shape.mask}"
+        return shift._replace(source=source, binds=BINDING["&"])
 
     def _cell(self, index: int, robot: int, emitter: Emitter, block: Block) -> Text:
-        """The index of the table's cell: row-major over the inputs."""
-        module, cell = self.function.episode.modules[index], ("0", ATOM)
+        """Return the index of the table's cell: row-major over the inputs."""
+        module, cell = self.function.episode.modules[index], Text("0")
         for node, labels in zip(module.cells[robot], module.inputs.values(), strict=True):
             part = emitter.text(node, block)
-            rows = infix("*", cell, (str(len(labels)), ATOM))
-            cell = part if cell[0] == "0" else infix("+", rows, part)
+            rows = infix("*", cell, Text(str(len(labels))))
+            cell = part if cell.source == "0" else infix("+", rows, part)
         return cell
 
-    def controls(self, index: int, robot: int) -> str:
-        """Whether a behavior controls a robot; the index after the last behavior's is nobody's."""
+    def controls(self, index: int, robot: int) -> Text:
+        """Return whether a behavior controls a robot; the index after the last behavior's is nobody's."""
         counts = [shape.n_actions for shape in self.function.shapes]
-        action = self.function.actions[robot]
+        action = name_text(self.function.actions[robot])
         if index == len(counts):
-            return f"{action} == 0"
+            return infix("==", action, Text("0"))
         first = [1, *accumulate(counts, initial=1)][index + 1]
-        return (
-            f"{action} == {first}"
-            if counts[index] == 1
-            else f"({action} >= {first}) & ({action} < {first + counts[index]})"
-        )
+        if counts[index] == 1:
+            return infix("==", action, Text(str(first)))
+        from_first, before_end = Text(str(first)), Text(str(first + counts[index]))
+        return infix("&", infix(">=", action, from_first), infix("<", action, before_end))

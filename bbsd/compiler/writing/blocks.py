@@ -1,58 +1,154 @@
-"""Lines of source on their way into the loops of a function."""
+"""Statements of a kernel, sorted into the blocks that its loops are made of."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from bbsd.compiler.writing.precedence import NO_NAMES, Text, name_text
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from bbsd.expression.graph import Node
+
+
+class Assignment(NamedTuple):
+    """A statement that gives a name to a value, or stores the value in an element of an array."""
+
+    target: str
+    text: Text
+    kind: Kind = Kind.NUMBER
+    """The kind of the value."""
+    is_definition: bool = False
+    """Whether the target is a name."""
+
+    @property
+    def line(self) -> str:
+        """The line of source."""
+        return f"{self.target} = {self.text.source}"
+
+    @property
+    def uses(self) -> frozenset[str]:
+        """The local names that it uses."""
+        return self.text.uses
+
+    @property
+    def is_expensive(self) -> bool:
+        """Whether it calls a function that takes long."""
+        return self.text.expensive
+
+    @property
+    def starts_phase(self) -> bool:
+        """Whether a new phase of a step begins here: only comments say so."""
+        return False
+
+
+class Comment(NamedTuple):
+    """A comment between statements."""
+
+    words: str
+    starts_phase: bool = False
+    """Whether a new phase of a step begins here, before which a loop may be cut."""
+
+    @property
+    def line(self) -> str:
+        """The line of source."""
+        return f"# {self.words}"
+
+    @property
+    def uses(self) -> frozenset[str]:
+        """The local names that it uses: none."""
+        return NO_NAMES
+
+    @property
+    def is_expensive(self) -> bool:
+        """Whether it takes long: never."""
+        return False
+
+
+Statement = Assignment | Comment
+
 
 @dataclass(slots=True)
 class Block:
-    """Lines of one level and stage, and the nodes that have a name there."""
+    """The statements of one level and stage, and the names of the nodes that are known there.
+
+    Others only add to it, by its methods.
+    """
 
     level: Level
     stage: int = 0
-    lines: list[str] = field(default_factory=list)
+    before: list[Assignment] = field(default_factory=list)
+    """Definitions once for all lanes, before the loop over them."""
+    statements: list[Statement] = field(default_factory=list)
+    after: list[Assignment] = field(default_factory=list)
+    """Stores after all other statements."""
     names: dict[int, str] = field(default_factory=dict)
-    kinds: dict[str, Kind] = field(default_factory=dict)
-    """What those names hold that hold no number."""
+    """By the node's number, the name that its value has in the block."""
     read: dict[str, str] = field(default_factory=dict)
-    """For names of values that other blocks compute, the source that reads them."""
+    """By the names of values that other blocks compute, the elements of arrays that they are read from."""
     kept: dict[str, str] = field(default_factory=dict)
-    """For names of values that other blocks need, the arrays that they are kept in."""
-    head: list[str] = field(default_factory=list)
-    """Lines that come before the loop over lanes."""
-    last: list[str] = field(default_factory=list)
-    """Lines that come after all others."""
+    """By the names of values that other blocks need, the arrays that they are stored in."""
+    robots_seen: set[str] = field(default_factory=set)
+    """The names of the offsets at which the values of other robots begin."""
 
-    def assign(self, name: str, text: str, kind: Kind = Kind.NUMBER) -> None:
-        """Write a line that gives a value its name."""
-        self.lines.append(f"{name} = {text}")
-        if kind is not Kind.NUMBER:
-            self.kinds[name] = kind
+    def define(self, name: str, text: Text, kind: Kind = Kind.NUMBER, node: Node | None = None) -> Text:
+        """Give a name to a value, which is that of a node if one is given; return the name as an expression."""
+        self.statements.append(Assignment(name, text, kind, is_definition=True))
+        if node is not None:
+            self.names[node.number] = name
+        return name_text(name)
 
-    def kind_of(self, name: str) -> Kind:
-        """What a name that the block defines holds."""
-        return self.kinds.get(name, Kind.NUMBER)
+    def define_before(self, name: str, text: Text, node: Node) -> None:
+        """Give a name to a node's value that is the same in all lanes."""
+        self.before.append(Assignment(name, text, node.kind, is_definition=True))
+        self.names[node.number] = name
+
+    def store(self, element: str, text: Text) -> None:
+        """Store a value in an element of an array."""
+        self.statements.append(Assignment(element, text))
+
+    def store_after(self, element: str, text: Text) -> None:
+        """Store a value after all other statements."""
+        self.after.append(Assignment(element, text))
+
+    def comment(self, words: str, *, starts_phase: bool = False) -> None:
+        """Write a comment."""
+        self.statements.append(Comment(words, starts_phase))
+
+    def read_from(self, element: str, name: str, node: Node | None = None) -> None:
+        """Read a value, which is that of a node if one is given, that another block computes under a name."""
+        self.read[name] = element
+        if node is not None:
+            self.names[node.number] = name
+
+    def keep_in(self, array: str, name: str) -> None:
+        """Store a named value of the block in an array, for other blocks."""
+        self.kept[name] = array
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines of source of its statements."""
+        return [statement.line for statement in self.statements]
 
 
 class Stage(NamedTuple):
-    """A stage's block, what is once a robot before it, and loops over the others, or the team, before it."""
+    """A stage of a step."""
 
     block: Block
+    """What is computed in each lane."""
     robot: Block | None
+    """What is computed once a robot, before the lanes."""
     pairs: Mapping[bool, Block]
+    """Loops over the other robots (True) or the whole team (False), before the lanes."""
 
     @property
     def is_empty(self) -> bool:
         """Whether nothing is computed in it."""
-        return not self.block.lines and not self.pairs
+        return not self.block.statements and not self.pairs
 
 
 @dataclass(slots=True)
@@ -68,21 +164,22 @@ class Blocks:
     pairs: dict[tuple[int, bool], Block] = field(default_factory=dict)
 
     def stage(self, number: int) -> Block:
-        """The block of a stage."""
-        level = Level.EACH if self.looped and number % 2 else Level.LANE
-        return self.stages.setdefault(number, Block(level, number))
+        """Return the block of a stage."""
+        if number not in self.stages:
+            self.stages[number] = Block(Level.EACH if self.looped and number % 2 else Level.LANE, number)
+        return self.stages[number]
 
     def robot(self, number: int) -> Block:
-        """What is computed once a robot, before the lanes of a stage."""
+        """Return the block of what is computed once a robot, before the lanes of a stage."""
         return self.robots.setdefault(number, Block(Level.ROBOT, number))
 
     def pair(self, number: int, *, others: bool) -> Block:
-        """What is computed for every robot that a robot looks at, before the lanes of a stage."""
+        """Return the block of what is computed for every robot that a robot looks at, before the lanes of a stage."""
         self.stage(number)
         return self.pairs.setdefault((number, others), Block(Level.PAIR, number))
 
-    def every(self) -> list[Stage]:
-        """All stages in their order."""
+    def in_order(self) -> list[Stage]:
+        """Return all stages in their order."""
         return [
             Stage(
                 self.stages[number],
@@ -91,3 +188,25 @@ class Blocks:
             )
             for number in sorted(self.stages)
         ]
+
+
+class Writer(Protocol):
+    """What writes nodes into blocks, as loops over robots know it."""
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks of the step."""
+
+    @property
+    def stage_of(self) -> Mapping[int, int]:
+        """By the node's number, the stage in which it is computed."""
+
+    @property
+    def hints(self) -> Mapping[int, str]:
+        """By the node's number, the name that the designer knows it by."""
+
+    def text(self, node: Node, into: Block) -> Text:
+        """Return the source of a value; what it needs is written into the blocks first."""
+
+    def repeatable(self, node: Node, into: Block) -> Text:
+        """Return a source of a value that may be written again and again."""

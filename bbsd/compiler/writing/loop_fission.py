@@ -2,48 +2,47 @@
 
 A loop as long as a processor's reorder buffer waits for its own chain of operations, since the next lanes do not fit
 beside it. Cut where the decision ends and around expensive functions it runs almost twice as fast. What one loop
-computes and another needs crosses in scratch arrays, so no bit changes.
+computes and another needs crosses in arrays, so no bit changes.
 """
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
+from bbsd.compiler.writing.blocks import Assignment, Comment
+from bbsd.compiler.writing.precedence import name_text
 from bbsd.expression.graph import Level
-from bbsd.expression.operations import EXPENSIVE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.compiler.writing.blocks import Block, Blocks
+    from bbsd.compiler.writing.blocks import Block, Blocks, Statement
     from bbsd.compiler.writing.rollout_function import RolloutFunction
 
-COSTLY = re.compile(rf"\b({'|'.join([*sorted(EXPENSIVE), 'normal'])})\(")
-DEFINED = re.compile(r"(\w+) = ")
-NAME = re.compile(r"\b[a-z_]\w*\b")
-SEEN = re.compile(r"\bseen_\d+\b")
 MOST_SEEN = 2
 """Other robots whose values a loop reads: with more of them LLVM does not compare all ranges that might overlap."""
-ACT = "# Act"
 SHORTEST, LONGEST = 12, 60
-"""Lines of a loop: fewer are not worth one, more are cut anywhere."""
+"""Statements of a loop: fewer are not worth one, more are cut anywhere."""
 
 
-def written(
+def loop_lines(
     blocks: Blocks, function: RolloutFunction, *, split: bool = True, apart: Sequence[str] = ()
 ) -> list[str]:
-    """The lines of all stages' loops, in their order; those `apart` in one more loop over lanes behind the last one."""
+    """Return the lines of all stages' loops in their order.
+
+    `apart` are the lines of one more loop over lanes behind the last one.
+    """
     lines = [*blocks.step.lines]
-    every = [stage for stage in blocks.every() if not stage.is_empty]
-    for stage in every:
+    stages = [stage for stage in blocks.in_order() if not stage.is_empty]
+    for stage in stages:
         block = stage.block
         bodies = [body for body in (loops(block, function) if split else [block.lines]) if body]
-        bodies += [[*apart]] if apart and stage is every[-1] else []
+        bodies += [[*apart]] if apart and stage is stages[-1] else []
         if block.level is Level.EACH:
             before = [*(stage.robot.lines if stage.robot else ())]
             for others, pair in stage.pairs.items():
-                before += function.pair_loop(pair.head, loops(pair, function), others=others)
+                shared = [definition.line for definition in pair.before]
+                before += function.pair_loop(shared, loops(pair, function), others=others)
             lines += function.robot_loop(before, bodies)
         else:
             lines += [line for body in bodies for line in function.lane_loop(body)]
@@ -51,43 +50,58 @@ def written(
 
 
 def loops(block: Block, function: RolloutFunction) -> list[list[str]]:
-    """The bodies of loops that do the same as one loop over the block's lines, in their order.
+    """Return the bodies of loops that together do what one loop over a block's statements does.
 
-    Each begins with the values that others computed and ends with storing those that others need.
+    Each begins with reading the values that others computed and ends with storing those that others need.
     """
-    parts = _cut([*block.lines, *block.last])
-    used = [set(NAME.findall("\n".join(part))) for part in parts]
-    born = [[match[1] for match in map(DEFINED.match, part) if match] for part in parts]
+    parts = _cut([*block.statements, *block.after], block.robots_seen)
+    uses = [frozenset[str]().union(*(statement.uses for statement in part)) for part in parts]
+    definitions = [
+        [each for each in part if isinstance(each, Assignment) and each.is_definition] for part in parts
+    ]
     kept, read = dict(block.kept), dict(block.read)
-    for place, names in enumerate(born):
-        for name in names:
-            if any(name in others for others in used[place + 1 :]):
-                kind = block.kind_of(name)
+    for index, defined in enumerate(definitions):
+        used_later = frozenset[str]().union(*uses[index + 1 :])
+        for definition in defined:
+            name, kind = definition.target, definition.kind
+            if name in used_later:
                 kept[name] = kept.get(name) or function.keep(f"{name}_kept", kind)
-                read[name], _ = function.read(kept[name], kind)
+                read[name] = function.read(kept[name], kind).source
     return [
         [
-            *(f"{name} = {source}" for name, source in read.items() if name in names - set(here)),
-            *part,
-            *(function.store(kept[name], name, block.kind_of(name)) for name in here if name in kept),
+            *_reads(read, used.difference(definition.target for definition in defined)),
+            *(statement.line for statement in part),
+            *_stores(kept, defined, function),
         ]
-        for part, names, here in zip(parts, used, born, strict=True)
+        for part, used, defined in zip(parts, uses, definitions, strict=True)
     ]
 
 
-def _cut(lines: list[str]) -> list[list[str]]:
-    parts: list[list[str]] = [[]]
+def _reads(read: dict[str, str], names: frozenset[str]) -> list[str]:
+    return [f"{name} = {element}" for name, element in read.items() if name in names]
+
+
+def _stores(kept: dict[str, str], definitions: list[Assignment], function: RolloutFunction) -> list[str]:
+    return [
+        f"{function.at(kept[name])} = {function.stored(name_text(name), kind).source}"
+        for name, _, kind, _ in definitions
+        if name in kept
+    ]
+
+
+def _cut(statements: Sequence[Statement], robots_seen: set[str]) -> list[list[Statement]]:
+    """Cut statements into the parts that get a loop each."""
+    parts: list[list[Statement]] = [[]]
     seen: set[str] = set()
-    for line in lines:
-        before = parts[-1][-1] if parts[-1] else ""
-        expensive, was_expensive = bool(COSTLY.search(line)), bool(COSTLY.search(before))
-        turns = line.startswith(ACT) or expensive != was_expensive
-        crowded = len({*seen, *SEEN.findall(line)}) > MOST_SEEN
-        long = len(parts[-1]) >= LONGEST
-        turns = turns and len(parts[-1]) >= (1 if was_expensive else SHORTEST)
-        if (crowded or long or turns) and not all(each.startswith("#") for each in parts[-1]):
+    for statement in statements:
+        part, sees = parts[-1], statement.uses & robots_seen
+        was_expensive = bool(part) and part[-1].is_expensive
+        turns = statement.starts_phase or statement.is_expensive != was_expensive
+        turns = turns and len(part) >= (1 if was_expensive else SHORTEST)
+        crowded, long = len(seen | sees) > MOST_SEEN, len(part) >= LONGEST
+        if (crowded or long or turns) and not all(isinstance(before, Comment) for before in part):
             parts.append([])
             seen.clear()
-        seen.update(SEEN.findall(line))
-        parts[-1].append(line)
+        seen |= sees
+        parts[-1].append(statement)
     return parts

@@ -1,7 +1,7 @@
-"""One rollout per spec: the source of a function that lives an episode in a batch of lanes.
+"""The source of a spec's rollouts: functions that run an episode in each lane of a batch.
 
-The loop over steps is outside, the loop over lanes inside, and its body is straight and free of branches, so it
-vectorizes. A lane is an agent in an episode. `docs/rollout.md` states the function's arguments.
+The loop over steps is outside, the loop over lanes inside, and its body has no branches, so it vectorizes. A lane is an
+agent in an episode. `docs/rollout.md` states the function's arguments.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.arbitration import Arbitration
-from bbsd.compiler.writing.loop_fission import written
-from bbsd.compiler.writing.rollout_function import OWN, RolloutFunction, indented
+from bbsd.compiler.writing.emission import emitter_of
+from bbsd.compiler.writing.loop_fission import loop_lines
+from bbsd.compiler.writing.precedence import Text
+from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO, RolloutFunction, indented
 from bbsd.compiler.writing.schedule import Closing, closing
 from bbsd.compiler.writing.totals import DETAILED, Totals
 from bbsd.kernel import functions, memory, streams
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler.passes.pipeline import Program
     from bbsd.compiler.tables import TableShape
+    from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.emission import Emitter
     from bbsd.expression.node_data import Slot
 
@@ -56,7 +59,7 @@ def _imports(module: str, names: Sequence[str]) -> list[str]:
 
 
 def rollout_source(function: RolloutFunction) -> str:
-    """The text of one rollout function."""
+    """Return the source of one rollout function."""
     arbitration = Arbitration(function)
     totals = Totals(function, arbitration)
     start = _start(function, arbitration, totals)
@@ -85,69 +88,70 @@ def _ends_uncertain(uncertain: str) -> list[str]:
 
 
 def _start(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -> list[str]:
-    """Every lane's key, tables, starting values and sums."""
-    emitter = function.emitter("0", hinted=False)
-    wanted = {slot: function.episode.start[slot] for slot in function.slots}
-    emitter.prepare(wanted.values())
+    """Return the lines that set every lane's key, tables, starting values and sums."""
+    start = {slot: function.episode.start[slot] for slot in function.slots}
+    emitter = emitter_of(function, start.values(), step="0", hinted=False)
     first = emitter.blocks.stage(0)
-    first.lines += ["key[lane] = keys[base + lane]", *arbitration.start()]
-    end = closing(emitter, wanted.values())
+    first.store("key[lane]", Text("keys[base + lane]"))
+    arbitration.start(first)
+    end = closing(emitter.blocks, emitter.stage_of, start.values())
     blocks = {slot: end.knowing(own=function.is_own(array)) for slot, array in function.slots.items()}
-    texts = {slot: emitter.value(node, blocks[slot]) for slot, node in wanted.items()}
+    texts = {slot: emitter.text(node, blocks[slot]) for slot, node in start.items()}
     for slot, text in texts.items():
-        blocks[slot].lines.append(function.store(function.slots[slot], text, wanted[slot].kind))
-    team, own = totals.start()
-    first.lines += [*team, *([] if function.running is None else [f"{function.running}[lane] = 1.0"])]
-    first.lines += [] if function.uncertain is None else [f"{function.uncertain}[lane] = 0.0"]
-    end.each.lines += own
-    return written(emitter.blocks, function, split=function.looped)
+        _store_slot(function, slot, text, blocks[slot])
+    totals.start(first, end.each)
+    if function.running is not None:
+        first.store(function.at(function.running), ONE)
+    if function.uncertain is not None:
+        first.store(function.at(function.uncertain), ZERO)
+    return loop_lines(emitter.blocks, function, split=function.looped)
 
 
 def _step(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -> list[str]:
-    """A step of every lane, in the order of the language's definition."""
-    emitter = function.emitter("step")
-    emitter.prepare([*function.outputs, *function.episode.choices], arbitration.stage)
-    deciding, end = emitter.blocks.stage(arbitration.stage), closing(emitter, function.outputs)
-    deciding.lines.append(
-        "# Decide: the highest layer that is excited and whose cell is not No Action controls."
-    )
+    """Return the lines of a step of every lane, in the order of the language's definition."""
+    emitter = emitter_of(function, [*function.outputs, *function.episode.choices], arbitration.stage)
+    deciding = emitter.blocks.stage(arbitration.stage)
+    end = closing(emitter.blocks, emitter.stage_of, function.outputs)
+    deciding.comment("Decide: the highest layer that is excited and whose cell is not No Action controls.")
     for robot in range(function.robots):
         arbitration.decide(robot, emitter, deciding)
-    deciding.lines.append("# Act, then dynamics and sensors.")
+    deciding.comment("Act, then dynamics and sensors.", starts_phase=True)
     after = _after(function, emitter, end)
-    end.each.lines.append("# Reward: what each robot earned goes to what controlled it.")
+    end.each.comment("Reward: what each robot earned goes to what controlled it.")
     totals.add(emitter, end)
     if function.uncertain is not None:
         totals.add_uncertain(function.uncertain, emitter, end)
     if function.detail is not Detail.CREDIT:
-        end.each.lines.append("# What an evaluation adds up.")
+        end.each.comment("What an evaluation adds up.")
         totals.add_details(emitter, end)
     if function.detail is Detail.TRACE:
         totals.record(emitter, end)
-    if function.episode.ends is not None:
-        ended = emitter.value(function.episode.ends, end.team)
-        end.team.lines.append(
-            f"{function.running}[lane] = {function.call_of('select', ended, '0.0', f'{function.running}[lane]')}"
-        )
+    if function.running is not None and function.episode.ends is not None:
+        ended = emitter.text(function.episode.ends, end.team)
+        running = function.call_of("select", ended, ZERO, function.read(function.running))
+        end.team.store(function.at(function.running), running)
     for slot, text in after.items():
-        array = function.slots[slot]
-        block = end.storing(own=function.is_own(array))
-        block.lines.append(function.store(array, text, function.episode.after[slot].kind))
+        _store_slot(function, slot, text, end.storing(own=function.is_own(function.slots[slot])))
     all_over = [] if function.running is None else [f"if {function.running}.sum() == 0.0:", "    break"]
-    return [*arbitration.look_up(), *written(emitter.blocks, function), *all_over]
+    return [*arbitration.look_up(), *loop_lines(emitter.blocks, function), *all_over]
 
 
-def _after(function: RolloutFunction, emitter: Emitter, end: Closing) -> dict[Slot, str]:
-    """What each slot that changes will hold, by names that stay true while slots are stored one after the other."""
-    found = {}
+def _after(function: RolloutFunction, emitter: Emitter, end: Closing) -> dict[Slot, Text]:
+    """Return what each slot that changes will hold, by names that stay true while slots are stored one by one."""
+    texts = {}
     for slot, array in function.slots.items():
-        node, wanted = function.episode.after[slot], f"next_{slot.text(function.robots)}"
+        node, name = function.episode.after[slot], f"next_{slot.text(function.robots)}"
         if node.operation == "slot" and node.data == slot:
             continue
         block = end.storing(own=function.is_own(array))
         if node.operation == "slot":
             now = end.knowing(own=node.level in OWN)
-            found[slot] = emitter.copied(node, wanted, now, block)
+            texts[slot] = emitter.copied(node, name, now, block)
         else:
-            found[slot] = emitter.named(node, wanted, block)
-    return found
+            texts[slot] = emitter.repeatable(node, block, name)
+    return texts
+
+
+def _store_slot(function: RolloutFunction, slot: Slot, text: Text, block: Block) -> None:
+    array, kind = function.slots[slot], function.episode.after[slot].kind
+    block.store(function.at(array), function.stored(text, kind))

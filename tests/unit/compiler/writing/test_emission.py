@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bbsd.compiler.writing.blocks import Block, Blocks
-from bbsd.compiler.writing.emission import Emitter
+from bbsd.compiler.writing.emission import Emitter, usage_of
 from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.naming import Namer
-from bbsd.compiler.writing.precedence import ATOM
+from bbsd.compiler.writing.precedence import Text, name_text
 from bbsd.expression.graph import Graph, Level, evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
@@ -20,11 +20,14 @@ VALUES = {"a": 1.5, "b": -2.25, "c": 0.0}
 NUMBERS = ("+", "-", "*", "minimum", "divide", "floor_divide", "modulo")
 
 
-def emitter(hints=None):
+def emitter(outputs, hints=None):
     """An emitter of one loop over lanes, in which nothing crosses to another one."""
     blocks = Blocks(Block(Level.CALL), looped=False)
-    loops = Loops(function=None)
-    return Emitter(Namer(), loops, lambda node: (node.slot.name, ATOM), "key", "step", hints or {}, blocks)
+    loops, texts = Loops(function=None), (Text("key"), Text("step"))
+    usage = usage_of(outputs)
+    return Emitter(
+        Namer(), loops, lambda node: name_text(node.slot.name), *texts, hints or {}, blocks, set(), usage
+    )
 
 
 def slot(graph, name, level=Level.LANE):
@@ -33,9 +36,8 @@ def slot(graph, name, level=Level.LANE):
 
 def written(outputs, hints=None):
     """The lines and the final expressions that some values become."""
-    made = emitter(hints)
-    made.prepare(outputs)
-    texts = [made.value(node, made.blocks.stage(0)) for node in outputs]
+    made = emitter(outputs, hints)
+    texts = [made.text(node, made.blocks.stage(0)).source for node in outputs]
     return [line for lines in lines_of(made) for line in lines], texts
 
 
@@ -124,20 +126,20 @@ def test_a_value_is_called_as_the_designer_calls_it():
 
 
 def test_a_value_is_computed_where_it_changes():
-    graph, made = Graph(), emitter()
+    graph = Graph()
     fixed = graph.apply("*", slot(graph, "a", Level.CALL), graph.number(2))
     now = graph.apply("-", slot(graph, "b", Level.STEP), graph.number(1))
     value = graph.apply("+", graph.apply("+", fixed, now), slot(graph, "c"))
-    made.prepare([value])
-    assert made.value(value, made.blocks.stage(0)) == "now_1 + c"
+    made = emitter([value])
+    assert made.text(value, made.blocks.stage(0)).source == "now_1 + c"
     assert lines_of(made) == (["fixed_1 = a * 2.0"], ["now_1 = fixed_1 + (b - 1.0)"], [])
 
 
 def test_draws_are_named_by_their_word_and_the_step_once_for_all_lanes():
-    graph, made = Graph(), emitter()
+    graph = Graph()
     value = graph.draw("uniform", 255, (graph.number(0), slot(graph, "a")))
-    made.prepare([value])
-    assert made.value(value, made.blocks.stage(0)) == "uniform(key, draw_1, 0.0, a)"
+    made = emitter([value])
+    assert made.text(value, made.blocks.stage(0)).source == "uniform(key, draw_1, 0.0, a)"
     assert made.blocks.step.lines == ["draw_1 = fold(0x80000000000000ff, word_of(step))"]
     assert made.used == {"uniform", "fold", "word_of"}
 

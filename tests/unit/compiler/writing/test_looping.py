@@ -1,10 +1,11 @@
-"""Lines that are special to loops over robots. That they mean the same is tested in test_rolling.py."""
+"""Lines that are special to loops over robots. That they mean the same is tested in test_robot_loops.py."""
 
 import pytest
 
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.compiler.passes.robot_loops import loop_over_robots
+from bbsd.compiler.writing.emission import emitter_of
 from bbsd.compiler.writing.rollout_function import RolloutFunction
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
@@ -40,11 +41,10 @@ class Written:
     """What some values become in a step, read in the stage wanted."""
 
     def __init__(self, function, *nodes, at, hints=()):
-        self.emitter = function.emitter("step", hinted=False)
+        self.emitter = emitter_of(function, nodes, decided=1, hinted=False)
         self.emitter.hints = dict(hints)
-        self.emitter.prepare(nodes, decided=1)
         self.blocks = self.emitter.blocks
-        self.texts = [self.emitter.value(node, self.blocks.stage(at)) for node in nodes]
+        self.texts = [self.emitter.text(node, self.blocks.stage(at)).source for node in nodes]
 
     def lines(self, stage):
         return self.blocks.stage(stage).lines
@@ -223,14 +223,13 @@ def test_elements_of_the_constants_are_read_from_each_robot_s_base(function, rob
 
 
 def test_what_a_slot_holds_now_crosses_to_where_it_is_stored(function, robots):
-    emitter = function.emitter("step", hinted=False)
-    emitter.prepare([])
+    emitter = emitter_of(function, [], hinted=False)
     now, later = emitter.blocks.stage(1), emitter.blocks.stage(3)
-    assert emitter.copied(slot(robots, "x"), "next_y", now, later) == "next_y"
+    assert emitter.copied(slot(robots, "x"), "next_y", now, later).source == "next_y"
     assert now.lines == ["next_y = x[own + lane]"]
     assert now.kept == {"next_y": "next_y_kept"}
     assert later.read == {"next_y": "next_y_kept[own + lane]"}
-    assert emitter.copied(slot(robots, "x"), "next_z", now, now) == "next_z"
+    assert emitter.copied(slot(robots, "x"), "next_z", now, now).source == "next_z"
     assert "next_z" not in now.kept
 
 

@@ -4,10 +4,7 @@ import pytest
 
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.compiler.writing.blocks import Block, Blocks
-from bbsd.compiler.writing.emission import Emitter
-from bbsd.compiler.writing.looping import Loops
-from bbsd.compiler.writing.naming import Namer
-from bbsd.compiler.writing.schedule import closing, last, stages
+from bbsd.compiler.writing.schedule import closing, first_stage_with, stages
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
@@ -96,22 +93,21 @@ def test_where_all_of_some_values_are_known(robots):
     graph = robots.graph
     total, nodes = robots.over(x(robots), "+"), [wind(robots), x(robots)]
     found = stages([total, *nodes], DECIDED)
-    assert last([], found, Level.LANE) == 0
-    assert last([], found, Level.EACH) == 1
-    assert last(nodes[:1], found, Level.LANE) == 0
-    assert last(nodes, found, Level.EACH) == 1
-    assert last([*nodes, total], found, Level.EACH) == 3
-    assert last([total, graph.number(1)], found, Level.LANE) == 2
-
-
-def emitter(*, looped):
-    return Emitter(Namer(), Loops(None), None, "key", "step", {}, Blocks(Block(Level.CALL), looped))
+    assert first_stage_with([], found, Level.LANE) == 0
+    assert first_stage_with([], found, Level.EACH) == 1
+    assert first_stage_with(nodes[:1], found, Level.LANE) == 0
+    assert first_stage_with(nodes, found, Level.EACH) == 1
+    assert first_stage_with([*nodes, total], found, Level.EACH) == 3
+    assert first_stage_with([total, graph.number(1)], found, Level.LANE) == 2
 
 
 def test_a_step_ends_where_all_is_known_and_then_stores(robots):
-    made, gap = emitter(looped=True), robots.graph.apply("-", x(robots), robots.over(x(robots), "+"))
-    made.prepare([gap, wind(robots)], DECIDED)
-    end = closing(made, [gap, wind(robots)])
+    blocks, gap = (
+        Blocks(Block(Level.CALL), looped=True),
+        robots.graph.apply("-", x(robots), robots.over(x(robots), "+")),
+    )
+    outputs = [gap, wind(robots)]
+    end = closing(blocks, stages(outputs, DECIDED), outputs)
     assert [block.stage for block in (end.each, end.team, end.store_each, end.store_team)] == [3, 4, 5, 6]
     assert [block.level for block in (end.each, end.team)] == [Level.EACH, Level.LANE]
     assert end.knowing(own=True) is end.each
@@ -121,10 +117,9 @@ def test_a_step_ends_where_all_is_known_and_then_stores(robots):
 
 
 def test_without_loops_over_robots_a_step_ends_where_it_begins(robots):
-    made = emitter(looped=False)
-    made.prepare([wind(robots)])
-    end = closing(made, [wind(robots)])
-    assert end.each is end.team is end.store_each is end.store_team is made.blocks.stage(0)
+    blocks = Blocks(Block(Level.CALL), looped=False)
+    end = closing(blocks, stages([wind(robots)], 0), [wind(robots)])
+    assert end.each is end.team is end.store_each is end.store_team is blocks.stage(0)
 
 
 def among(robots, value):
