@@ -102,7 +102,7 @@ def test_any_number_of_jobs_gives_the_same_bytes(jobs, long, tmp_path):
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks /proc who is there")
 @pytest.mark.parametrize("to", ["group", "parent"])
-def test_an_interrupt_leaves_nobody_behind_and_every_run_to_be_gone_on_with(to, long, tmp_path):
+def test_an_interrupt_leaves_no_process_behind_and_every_run_to_be_resumed(to, long, tmp_path):
     running = start(SPEC, *LONG, "--jobs", 2, "--out", "run", "-q", cwd=tmp_path)
     wait_until(both_run(tmp_path / "run"))
     (os.killpg if to == "group" else os.kill)(running.pid, signal.SIGINT)
@@ -128,7 +128,7 @@ def test_workers_do_not_outlive_a_parent_that_is_killed(long, tmp_path):
 
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks /proc who is there")
-def test_a_worker_that_is_killed_is_told_of_and_gone_on_without(long, tmp_path):
+def test_a_worker_that_is_killed_is_reported_and_the_design_resumed(long, tmp_path):
     running = start(SPEC, *LONG, "--jobs", 2, "--out", "run", "-q", cwd=tmp_path)
     wait_until(both_run(tmp_path / "run"))
     [worker] = [number for number, command in members(running.pid).items() if "popen_loky" in command]

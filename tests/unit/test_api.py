@@ -135,7 +135,7 @@ def test_a_stopped_design_goes_on_to_the_same_bytes(designed, tmp_path, at):
     assert files(again.folder) == files(found.folder)
 
 
-def test_a_design_is_gone_on_with_only_where_it_is_the_same(designed):
+def test_a_design_is_resumed_only_where_it_is_the_same(designed):
     found, _ = designed
     before = files(found.folder)
     for changed in ({"seed": 3}, {"runs": 1}, {"overrides": ["environment.steps=3"]}):

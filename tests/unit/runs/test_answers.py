@@ -15,7 +15,7 @@ def plain(architectures):
     return [([*map(list, each.tables)], each.structure.tolist()) for each in architectures]
 
 
-def test_every_run_is_completed_and_told_of_in_its_order(command):
+def test_every_run_is_completed_and_reported_in_its_order(command):
     told = []
     found = complete_runs(command, 1, told.append)
     assert len(found) == 2
@@ -25,7 +25,7 @@ def test_every_run_is_completed_and_told_of_in_its_order(command):
     assert plain([command.answer(0), command.answer(1)]) == plain(found)
 
 
-def test_a_generation_is_kept_before_it_is_told(command):
+def test_a_generation_is_saved_before_it_is_reported(command):
     def tell(line):
         assert command.records(line["run"] - 1).lines()[-1] == line
 
@@ -39,7 +39,7 @@ def test_what_is_done_is_not_done_again(command):
     assert plain(found[1:]) == plain([first])
 
 
-def test_a_run_that_was_stopped_goes_on(command):
+def test_a_run_that_was_stopped_is_resumed(command):
     def stop(line):
         if line["generation"] == 3:
             raise KeyboardInterrupt

@@ -35,7 +35,7 @@ def test_the_metrics_of_the_only_run_are_left_as_they_are(folder):
     assert folder.lines() == [{"run": 1, "generation": 1}]
 
 
-def test_a_note_tells_what_was_run_and_with_what(folder):
+def test_a_run_file_says_what_was_run_and_with_what(folder):
     folder.write_run_file(WHO)
     note = json.loads(folder.run_file.read_text())
     assert (note["format"], note["seed"], note["runs"], note["set"]) == (2, 3, 2, ["design.sharing=value"])
@@ -47,7 +47,7 @@ def test_a_note_tells_what_was_run_and_with_what(folder):
     assert json.loads(folder.run_file.read_text())["result"] == {"return": 5}
 
 
-def test_only_the_same_is_gone_on_with(folder):
+def test_a_folder_holds_only_an_equal_identity(folder):
     folder.write_run_file(WHO)
     assert folder.holds(WHO)
     others = [
@@ -60,7 +60,7 @@ def test_only_the_same_is_gone_on_with(folder):
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", "no note"])
-def test_what_is_no_note_is_of_nothing(folder, text):
+def test_what_is_no_run_file_identifies_nothing(folder, text):
     folder.run_file.write_text(text)
     assert not folder.holds(WHO)
 
@@ -107,7 +107,7 @@ def test_a_folder_that_cannot_be_read_is_an_error(tmp_path):
     tmp_path.chmod(0o700)
 
 
-def test_the_newest_default_folder_of_the_same_is_gone_on_with(tmp_path, monkeypatch):
+def test_the_newest_default_folder_of_an_equal_identity_is_resumed(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     other = identity("a spec", (), 3, 2)
     for who in (WHO, WHO, other):
@@ -118,7 +118,7 @@ def test_the_newest_default_folder_of_the_same_is_gone_on_with(tmp_path, monkeyp
         folder_to_resume(None, "push", WHO)
 
 
-def test_a_wanted_folder_must_be_of_the_same(tmp_path):
+def test_a_wanted_folder_must_have_an_equal_identity(tmp_path):
     with pytest.raises(FolderError, match="holds no run of this spec"):
         folder_to_resume(tmp_path, "lift", WHO)
     Folder(tmp_path).write_run_file(WHO)

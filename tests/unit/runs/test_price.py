@@ -68,7 +68,7 @@ def test_nothing_is_written(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_it_is_told_to_people_and_programs(price):
+def test_it_is_shown_to_people_and_programs(price):
     assert json.loads(json.dumps(price_plain(price))) == json.loads(json.dumps(asdict(price)))
     text = price_text(price)
     assert f"{price.episodes:,} in the generations" in text

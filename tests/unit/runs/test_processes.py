@@ -47,7 +47,7 @@ with waiting_processes(1) as processes:
 """
 
 
-def test_a_temporary_cache_is_told_of_once_and_is_the_workers_too(tmp_path):
+def test_a_temporary_cache_is_reported_once_and_is_the_workers_too(tmp_path):
     (tmp_path / "file").touch()
     environment = {**os.environ, "BBSD_CACHE_DIR": str(tmp_path / "file")}
     done = subprocess.run(

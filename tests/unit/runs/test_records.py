@@ -25,7 +25,7 @@ def lines_of(records):
     return [(line["run"], line["generation"]) for line in records.lines()]
 
 
-def test_what_is_saved_is_gone_on_from(records, lived):
+def test_what_is_saved_is_resumed(records, lived):
     assert records.load() is None
     for progress, line in lived[:2]:
         records.save(progress, line)

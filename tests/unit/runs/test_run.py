@@ -45,7 +45,7 @@ def uninterrupted(tmp_path_factory):
 
 
 @pytest.mark.parametrize("at", range(1, 11))
-def test_going_on_after_any_generation_changes_no_bit(at, uninterrupted, tmp_path):
+def test_resuming_after_any_generation_changes_no_bit(at, uninterrupted, tmp_path):
     assert whole(*guess(lanes=5), tmp_path / "c", at=at) == uninterrupted
 
 

@@ -92,7 +92,7 @@ def test_outside_of_the_main_thread_wishes_are_those_of_a_design():
     assert found == [True]
 
 
-def test_a_wish_is_told_of_once_and_to_late_comers_at_once():
+def test_a_request_calls_listeners_once_and_late_ones_at_once():
     told = []
     request = StopRequest()
     request.when_made(lambda: told.append("early"))

@@ -53,7 +53,7 @@ def test_workers_that_are_ready_are_taken_also_where_they_are_more_than_needed(c
     assert plain(found[run] for run in (1, 2)) == plain(complete_runs(alone, 1)[1:])
 
 
-def test_an_error_of_who_is_told_stops_all(command):
+def test_an_error_of_a_listener_stops_all(command):
     def tell(_line):
         raise OSError("no more")
 

@@ -39,7 +39,7 @@ def test_a_run_begins_with_random_pools_and_nothing_learned():
     assert (len(state.culture), len(state.champions.fitness)) == (0, 0)
 
 
-def test_the_first_generation_lives_with_the_first_pools():
+def test_the_first_generation_has_the_first_pools():
     problem, settings = guess()
     (before, after), _ = generations(problem, settings, 1)
     for first, lived in zip(before.pools, after.pools, strict=True):

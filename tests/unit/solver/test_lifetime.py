@@ -20,7 +20,7 @@ def lives_of(search="sampled", structure="", **changed):
     return agents, run_lifetimes(problem, agents, KEYS, 1, learning(settings, **changed))
 
 
-def test_a_lifetime_of_one_episode_is_lived_as_born():
+def test_a_lifetime_of_one_episode_has_the_initial_structure():
     agents, lives = lives_of(episodes=1, last=1)
     np.testing.assert_array_equal(lives.structures, agents.structures)
     assert lives.returns.shape == (8, 1)
@@ -33,7 +33,7 @@ def test_the_structure_returned_is_that_of_the_last_episode():
     np.testing.assert_array_equal(three.returns[:, :2], two.returns)
 
 
-def test_a_given_structure_is_lived_with_to_the_end():
+def test_a_given_structure_is_kept_to_the_end():
     agents, lives = lives_of(structure="structure: [even, odd]")
     np.testing.assert_array_equal(agents.structures, [[0, 1]] * 8)
     np.testing.assert_array_equal(lives.structures, agents.structures)
@@ -87,7 +87,7 @@ def test_by_counters_a_pair_is_worth_its_share_of_the_reinforcement():
     assert lives.values.tolist() == [[[0, 0, 0], [0, 0, 0], [0, 0, -1]]]
 
 
-def test_what_was_earned_under_a_behavior_is_learned_of_it():
+def test_what_was_earned_under_a_behavior_is_its_value():
     text = """
     bbsd: 1
     name: two
@@ -107,7 +107,7 @@ def test_what_was_earned_under_a_behavior_is_learned_of_it():
     assert lives.values.tolist() == [[[0.5 * 2, 0], [0, 0.5 * 20]]]  # layers, lowest first, by behaviors
 
 
-def test_agents_live_alike_alone_and_together():
+def test_agents_learn_alike_alone_and_together():
     problem, settings = guess()
     agents = random_agents(problem, 1, 8)
     together = run_lifetimes(problem, agents, KEYS, 1, settings)
@@ -118,7 +118,7 @@ def test_agents_live_alike_alone_and_together():
     np.testing.assert_array_equal(apart.values, together.values[some])
 
 
-def test_a_reward_that_is_not_finite_is_told_with_its_generation_and_episode():
+def test_a_reward_that_is_not_finite_is_reported_with_its_generation_and_episode():
     text = """
     bbsd: 1
     name: odd
