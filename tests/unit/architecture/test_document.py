@@ -99,9 +99,9 @@ def test_a_table_stays_one_as_it_is_written():
 def test_what_no_file_can_hold_is_refused_at_its_place(size, n_behaviors):
     with pytest.raises(SpecError) as caught:
         require_writable(loaded(small(behaviors(n_behaviors, 1, (size,)))))
-    [told] = caught.value.diagnoses
-    assert told.code == "BB048"
-    assert f"the {size:,} open cells of b{n_behaviors - 1}" in told.message
+    [diagnosis] = caught.value.diagnoses
+    assert diagnosis.code == "BB048"
+    assert f"the {size:,} open cells of b{n_behaviors - 1}" in diagnosis.message
 
 
 def test_what_is_set_is_written_also_what_takes_away_nothing():

@@ -31,7 +31,7 @@ reward:
 
 
 def merged(base: Data, part: Data) -> Data:
-    """The base with a part laid over it: mappings merge, all else, and empty mappings, replace; null takes away."""
+    """Lay a part over the base: mappings merge, all else, and empty mappings, replace; null takes away."""
     if not (isinstance(base, dict) and isinstance(part, dict) and part):
         return part
     found = {**base, **{key: merged(base.get(key), value) for key, value in part.items()}}
@@ -39,7 +39,7 @@ def merged(base: Data, part: Data) -> Data:
 
 
 def source(part: str = "") -> Source:
-    """The small spec with a part laid over it."""
+    """Return the small spec with a part laid over it."""
     data, laid_over = read(Source("base", BASE)).data, _read(part) if part else {}
     return Source("spec.yaml", write(merged(data, laid_over) if laid_over else data))
 
@@ -50,16 +50,16 @@ def _read(part: str) -> Data:
     return document.data
 
 
-def meant(part: str = "", seed: int = 0) -> Meaning:
-    """The meaning of the small spec with a part laid over it; there must be no mistake."""
+def meaning_of(part: str = "", seed: int = 0) -> Meaning:
+    """Return the meaning of the small spec with a part laid over it; there must be no mistake."""
     return load(source(part), seed=seed).meaning
 
 
 def codes(part: str) -> list[str]:
-    """The codes of all that is wrong with the small spec with a part laid over it."""
-    return [each.code for each in check(source(part))]
+    """Return the codes of the mistakes in the small spec with a part laid over it."""
+    return [diagnosis.code for diagnosis in check(source(part))]
 
 
 def messages(part: str) -> list[str]:
-    """The messages of all that is wrong with the small spec with a part laid over it."""
-    return [each.message for each in check(source(part))]
+    """Return the messages of the mistakes in the small spec with a part laid over it."""
+    return [diagnosis.message for diagnosis in check(source(part))]

@@ -1,4 +1,4 @@
-"""The catalog of mistakes: every code that is told is in it, and its examples are what they say."""
+"""The catalog of mistakes: every code that is reported is in it, and its examples have the mistakes that they show."""
 
 import re
 from pathlib import Path
@@ -18,7 +18,7 @@ NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB029", "B
 """What no few lines can show: files that are missing or no text, what is too large, what only a run finds."""
 
 
-def told(example: str) -> tuple[Diagnosis, ...]:
+def reported(example: str) -> tuple[Diagnosis, ...]:
     """What is wrong with an example: an argument, a part of a spec, or a text that is no YAML."""
     if example.startswith("--set "):
         return of_override(example.removeprefix("--set "))
@@ -44,11 +44,11 @@ def test_the_codes_that_are_told_are_those_of_the_catalog() -> None:
 @pytest.mark.parametrize("code", sorted(set(KINDS) - NO_EXAMPLES))
 def test_an_example_has_its_mistake_and_nothing_else(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(graph, "MAX_NODES", 20_000)
-    assert {each.code for each in told(KINDS[code].example)} == {code}
+    assert {diagnosis.code for diagnosis in reported(KINDS[code].example)} == {code}
 
 
 @pytest.mark.parametrize("code", sorted(set(KINDS) - NO_EXAMPLES))
 def test_the_mended_example_has_it_no_longer(code: str) -> None:
-    left = told(KINDS[code].mend)
-    assert code not in {each.code for each in left}
-    assert left == () or code < "BB020"
+    remaining = reported(KINDS[code].mend)
+    assert code not in {diagnosis.code for diagnosis in remaining}
+    assert remaining == () or code < "BB020"

@@ -1,4 +1,4 @@
-"""Specs that extend others: merged level by level, told of at their own places, never from elsewhere."""
+"""Specs that extend others: merged level by level, with mistakes at their own places; no file from elsewhere."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def extending(text, base="base.yaml", name="spec.yaml"):
     return Source.read(name)
 
 
-def told(source):
-    return [(each.code, each.place.file, each.place.line) for each in check(source)]
+def reported(source):
+    return [(diagnosis.code, diagnosis.place.file, diagnosis.place.line) for diagnosis in check(source)]
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_null_takes_away_and_opens_again():
 
 
 def test_null_for_what_the_base_does_not_have_is_a_mistake_as_ever():
-    assert told(extending("structre: null\n")) == [("BB020", "spec.yaml", 2)]
+    assert reported(extending("structre: null\n")) == [("BB020", "spec.yaml", 2)]
 
 
 def test_files_extend_each_other_in_a_chain():
@@ -93,7 +93,7 @@ def test_a_base_may_stand_in_a_folder_below(tmp_path):
 def test_mistakes_are_told_in_the_file_that_makes_them():
     write("base.yaml", BASE.replace("speed: 0", "speed: sped", 1))
     source = extending("environment: {steps: many}\nreward:\n  near: heigt\n")
-    assert sorted(told(source)) == [
+    assert sorted(reported(source)) == [
         ("BB022", "spec.yaml", 2),
         ("BB052", "base.yaml", BASE.split("\n").index("    speed: 0") + 1),
         ("BB052", "spec.yaml", 4),
@@ -104,18 +104,18 @@ def test_each_mistake_is_shown_with_the_line_of_its_file():
     write("base.yaml", BASE.replace("speed: 0", "speed: sped", 1))
     with pytest.raises(SpecError) as caught:
         load(extending("reward:\n  near: heigt\n"))
-    lines = {each.place.file: caught.value.line(each.place) for each in caught.value.diagnoses}
+    lines = {diagnosis.place.file: caught.value.line(diagnosis.place) for diagnosis in caught.value.diagnoses}
     assert lines == {"base.yaml": "    speed: sped", "spec.yaml": "  near: heigt"}
 
 
 def test_a_base_that_is_no_yaml_is_told_of_in_its_file():
     write("base.yaml", "bbsd: 1\nname: 'a\n")
-    assert told(extending("")) == [("BB004", "base.yaml", 2)]
+    assert reported(extending("")) == [("BB004", "base.yaml", 2)]
 
 
 def test_a_base_that_is_no_text_is_told_of(tmp_path):
     (tmp_path / "base.yaml").write_bytes(b"name: \xff")
-    assert [each[:2] for each in told(extending(""))] == [("BB003", "base.yaml")]
+    assert [each[:2] for each in reported(extending(""))] == [("BB003", "base.yaml")]
 
 
 @pytest.mark.parametrize(
@@ -146,12 +146,12 @@ def test_a_link_does_not_lead_out_of_the_folder(tmp_path, tmp_path_factory):
     (tmp_path / "link.yaml").symlink_to(outside)
     (tmp_path / "linked").symlink_to(outside.parent)
     for base in ("link.yaml", "linked/base.yaml"):
-        assert told(extending("", base)) == [("BB029", "spec.yaml", 1)]
+        assert reported(extending("", base)) == [("BB029", "spec.yaml", 1)]
 
 
 def test_a_link_in_a_circle_is_told_of(tmp_path):
     (tmp_path / "link.yaml").symlink_to(tmp_path / "link.yaml")
-    assert told(extending("", "link.yaml")) == [("BB029", "spec.yaml", 1)]
+    assert reported(extending("", "link.yaml")) == [("BB029", "spec.yaml", 1)]
 
 
 def test_files_do_not_extend_each_other_in_a_circle():
@@ -164,16 +164,16 @@ def test_files_do_not_extend_each_other_in_a_circle():
 def test_chains_are_bounded():
     for number in range(MAX_FILES):
         extending("", f"spec{number - 1}.yaml" if number else "base.yaml", f"spec{number}.yaml")
-    assert told(Source.read(f"spec{MAX_FILES - 2}.yaml")) == []
-    assert [each[0] for each in told(Source.read(f"spec{MAX_FILES - 1}.yaml"))] == ["BB029"]
+    assert reported(Source.read(f"spec{MAX_FILES - 2}.yaml")) == []
+    assert [each[0] for each in reported(Source.read(f"spec{MAX_FILES - 1}.yaml"))] == ["BB029"]
 
 
 def test_the_size_of_all_together_is_bounded(monkeypatch):
     monkeypatch.setattr(lineage, "MAX_CHARACTERS", len(BASE))
-    assert told(extending("")) == [("BB029", "spec.yaml", 1)]
+    assert reported(extending("")) == [("BB029", "spec.yaml", 1)]
     monkeypatch.setattr(lineage, "MAX_CHARACTERS", 10 * len(BASE))
     monkeypatch.setattr(lineage, "MAX_EXTENDED_NODES", 20)
-    assert told(extending("")) == [("BB011", "spec.yaml", 1)]
+    assert reported(extending("")) == [("BB011", "spec.yaml", 1)]
 
 
 def test_the_flat_spec_says_the_same_and_keeps_the_comments_of_the_base():
@@ -213,4 +213,4 @@ def test_what_is_designed_is_flat():
 def test_extends_cannot_be_set():
     with pytest.raises(SpecError) as caught:
         load(Source("spec.yaml", BASE), overrides=["extends=base.yaml"])
-    assert [each.code for each in caught.value.diagnoses] == ["BB028"]
+    assert [diagnosis.code for diagnosis in caught.value.diagnoses] == ["BB028"]

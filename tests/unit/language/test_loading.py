@@ -35,33 +35,37 @@ def test_mistakes_are_raised_together_in_the_order_of_the_file() -> None:
                 "reward: {near: hight}\nenvironment: {robots: many}\nbehaviors: {stop: {actions: {halt: {sped: 0}}}}"
             )
         )
-    assert [each.code for each in caught.value.diagnoses] == ["BB022", "BB033", "BB052"]
+    assert [diagnosis.code for diagnosis in caught.value.diagnoses] == ["BB022", "BB033", "BB052"]
     assert caught.value.source.line(1) == "bbsd: 1"
 
 
 def test_a_mistake_in_an_aliased_value_is_told_where_it_is_written() -> None:
     text = BASE.replace("speed: 0\nreward:", "speed: &s slow\n      push:\n        speed: *s\nreward:")
-    assert [(each.code, each.place.line) for each in check(Source("spec.yaml", text))] == [("BB052", 21)]
+    assert [(diagnosis.code, diagnosis.place.line) for diagnosis in check(Source("spec.yaml", text))] == [
+        ("BB052", 21)
+    ]
 
 
 def test_only_so_many_mistakes_are_shown() -> None:
     terms = ", ".join(f"t{place}: unknown{place}" for place in range(MAX_DIAGNOSES + 3))
-    told = check(source(f"reward: {{{terms}}}"))
-    assert len(told) == MAX_DIAGNOSES
-    assert told[-1].advice == "3 more mistakes are not shown"
-    assert told[0].advice == ""
+    diagnoses = check(source(f"reward: {{{terms}}}"))
+    assert len(diagnoses) == MAX_DIAGNOSES
+    assert diagnoses[-1].advice == "3 more mistakes are not shown"
+    assert diagnoses[0].advice == ""
 
 
 def test_what_yaml_stumbled_over_is_told_once() -> None:
     assert codes("x-note: 1") == []
     for text, code in (("speed:0", "BB017"), ("1: 0", "BB008"), ("<<: {}", "BB007"), ("speed: *x", "BB010")):
-        told = check(
+        diagnoses = check(
             Source("spec.yaml", BASE.replace("    speed: 0\n  dynamics:", f"    {text}\n  dynamics:"))
         )
-        assert code in {each.code for each in told}
-        assert all(each.place.line == 9 or each.code == "BB052" for each in told if each.code != "BB033"), (
-            told
-        )
+        assert code in {diagnosis.code for diagnosis in diagnoses}
+        assert all(
+            diagnosis.place.line == 9 or diagnosis.code == "BB052"
+            for diagnosis in diagnoses
+            if diagnosis.code != "BB033"
+        ), diagnoses
 
 
 @pytest.mark.parametrize("text", ["", "# nothing", "- 1", "3", "a: [", "\t", "a: b: c", "? x\n: y"])
@@ -102,9 +106,9 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
     parent[place[-1]] = value
     from bbsd.language.loading import _examine
 
-    spec, meaning, told = _examine(data, 0, is_small=True)
-    assert told or (spec and meaning)
-    for _, mistake in told:
+    spec, meaning, mistakes = _examine(data, 0, is_small=True)
+    assert mistakes or (spec and meaning)
+    for _, mistake in mistakes:
         assert not any(
             word in mistake.message for word in ("Input", "valid ", "union", "pydantic", "dict", "<")
         )
@@ -150,10 +154,10 @@ def test_messages_are_in_a_designers_words(part: str, message: str) -> None:
 def test_a_misspelled_block_is_one_mistake() -> None:
     for block in ("sensors", "state", "dynamics"):
         text = BASE.replace(f"  {block}:", f"  {block[:-1]}s_:")
-        assert [each.code for each in check(Source("spec.yaml", text))] == ["BB020"], block
+        assert [diagnosis.code for diagnosis in check(Source("spec.yaml", text))] == ["BB020"], block
     for block in ("behaviors", "reward", "environment"):
         text = BASE.replace(f"\n{block}:", f"\n{block}_:")
-        assert [each.code for each in check(Source("spec.yaml", text))] == ["BB020"], block
+        assert [diagnosis.code for diagnosis in check(Source("spec.yaml", text))] == ["BB020"], block
 
 
 def test_a_wrong_number_of_robots_says_nothing_about_indices() -> None:
@@ -172,8 +176,8 @@ def test_a_wrong_number_of_robots_says_nothing_about_indices() -> None:
     ],
 )
 def test_advice_names_the_block_or_the_form_that_was_meant(part: str, advice: str) -> None:
-    (told,) = check(source(part))
-    assert told.advice == advice
+    (diagnosis,) = check(source(part))
+    assert diagnosis.advice == advice
 
 
 @pytest.mark.parametrize(
@@ -188,12 +192,12 @@ def test_what_only_follows_from_a_mistake_is_not_told(part: str, code: str) -> N
 
 
 def test_what_need_not_be_whole_is_told_beside_inputs_that_were_not_understood() -> None:
-    told = codes("behaviors: {stop: {inputs: {a: tld > 1, b: 'values(speed / 2, 0, 3)'}}}")
-    assert sorted({*told} & {"BB052", "BB064"}) == ["BB052", "BB064"]
+    codes_reported = codes("behaviors: {stop: {inputs: {a: tld > 1, b: 'values(speed / 2, 0, 3)'}}}")
+    assert sorted({*codes_reported} & {"BB052", "BB064"}) == ["BB052", "BB064"]
 
 
 def test_in_a_large_spec_mistakes_of_form_are_told_first() -> None:
     text = BASE.replace("robots: 3", "robots: many").replace("speed: 0\nreward", "speed: sped\nreward")
     large = text + "#" * MAX_EXAMINED_TWICE
-    assert [each.code for each in check(Source("spec.yaml", text))] == ["BB022", "BB052"]
-    assert [each.code for each in check(Source("spec.yaml", large))] == ["BB022"]
+    assert [diagnosis.code for diagnosis in check(Source("spec.yaml", text))] == ["BB022", "BB052"]
+    assert [diagnosis.code for diagnosis in check(Source("spec.yaml", large))] == ["BB022"]

@@ -16,11 +16,12 @@ def refused(*overrides: str) -> list[tuple[str, int, int]]:
     with pytest.raises(SpecError) as caught:
         loaded(*overrides)
     error = caught.value
-    assert {each.place.file for each in error.diagnoses} == {"--set"}
+    assert {diagnosis.place.file for diagnosis in error.diagnoses} == {"--set"}
     assert all(
-        error.source.line(each.place.line) == overrides[each.place.line - 1] for each in error.diagnoses
+        error.source.line(diagnosis.place.line) == overrides[diagnosis.place.line - 1]
+        for diagnosis in error.diagnoses
     )
-    return [(each.code, each.place.line, each.place.column) for each in error.diagnoses]
+    return [(diagnosis.code, diagnosis.place.line, diagnosis.place.column) for diagnosis in error.diagnoses]
 
 
 def test_values_are_set_in_order() -> None:
@@ -108,20 +109,20 @@ def test_mistakes_in_a_value_are_told_at_the_override(argument: str, code: str, 
 def test_mistakes_of_the_file_are_told_in_the_file() -> None:
     with pytest.raises(SpecError) as caught:
         load(source("reward: {near: hight}"), overrides=["environment.steps=3"])
-    assert [each.place.file for each in caught.value.diagnoses] == ["spec.yaml"]
+    assert [diagnosis.place.file for diagnosis in caught.value.diagnoses] == ["spec.yaml"]
 
 
 def test_what_an_override_takes_away_is_missed_in_the_file() -> None:
     with pytest.raises(SpecError) as caught:
         loaded("environment.steps=null")
-    (told,) = caught.value.diagnoses
-    assert (told.code, told.place.file) == ("BB021", "spec.yaml")
+    (diagnosis,) = caught.value.diagnoses
+    assert (diagnosis.code, diagnosis.place.file) == ("BB021", "spec.yaml")
 
 
 def test_an_argument_of_several_lines_keeps_its_places() -> None:
     with pytest.raises(SpecError) as caught:
         loaded("reward=\n  near: hight\n  far: 1", "environment.steps=few")
-    assert [(each.code, each.place.line, each.place.column) for each in caught.value.diagnoses] == [
+    assert [(diagnosis.code, diagnosis.place.line, diagnosis.place.column) for diagnosis in caught.value.diagnoses] == [
         ("BB052", 2, 9), ("BB022", 4, 19),
     ]  # fmt: skip
     assert caught.value.source.line(2) == "  near: hight"

@@ -1,4 +1,4 @@
-"""The specs in tests/specs: what is wrong is told once, where it is, and nothing else is."""
+"""The specs in tests/specs: each mistake is reported once, at its place, and nothing else is."""
 
 import re
 from collections import Counter
@@ -37,9 +37,11 @@ def expected(source: Source) -> Counter[tuple[str, int, int]]:
 @pytest.mark.parametrize("path", INVALID, ids=lambda path: path.stem)
 def test_an_invalid_spec_has_exactly_its_mistakes(path: Path) -> None:
     source = Source.read(path)
-    told = check(source)
-    assert Counter((each.code, each.place.line, each.place.column) for each in told) == expected(source)
-    assert [each.place for each in told] == sorted(each.place for each in told)
+    diagnoses = check(source)
+    assert Counter(
+        (diagnosis.code, diagnosis.place.line, diagnosis.place.column) for diagnosis in diagnoses
+    ) == expected(source)
+    assert [diagnosis.place for diagnosis in diagnoses] == sorted(diagnosis.place for diagnosis in diagnoses)
 
 
 @pytest.mark.parametrize("path", VALID, ids=lambda path: path.stem)

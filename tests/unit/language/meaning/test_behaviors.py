@@ -1,11 +1,11 @@
 import pytest
 
 from bbsd.expression.graph import value_of
-from tests.unit.language.specs import codes, meant, messages
+from tests.unit.language.specs import codes, meaning_of, messages
 
 
 def test_a_module_has_its_nodes_for_each_robot() -> None:
-    (module,) = meant().episode.modules
+    (module,) = meaning_of().episode.modules
     assert module.inputs == {"reached": ("false", "true")}
     assert len(module.cells) == len(module.excited) == 3
     assert [value_of(node) for node in module.excited] == [True] * 3
@@ -15,7 +15,7 @@ def test_a_module_has_its_nodes_for_each_robot() -> None:
 
 
 def test_inputs_keep_their_order_and_multiply() -> None:
-    (module,) = meant("""
+    (module,) = meaning_of("""
 environment: {sensors: {zone: {low: height < 1, middle: height < 2, high: otherwise}}}
 behaviors: {stop: {inputs: [zone, tilted]}}
 """).episode.modules
@@ -26,11 +26,11 @@ behaviors: {stop: {inputs: [zone, tilted]}}
 def test_an_own_input_may_name_a_sensor() -> None:
     part = "environment: {sensors: {zone: {low: height < 1, high: otherwise}}}\n"
     part += "behaviors: {stop: {inputs: {reached: zone}}}"
-    assert meant(part).episode.modules[0].inputs == {"reached": ("low", "high")}
+    assert meaning_of(part).episode.modules[0].inputs == {"reached": ("low", "high")}
 
 
 def test_without_inputs_a_table_has_one_cell() -> None:
-    (module,) = meant("behaviors: {stop: {inputs: {}}}").episode.modules
+    (module,) = meaning_of("behaviors: {stop: {inputs: {}}}").episode.modules
     assert module.n_cells == 1
 
 
@@ -74,7 +74,7 @@ def test_rules_are_looked_through_though_an_input_is_not_understood() -> None:
 
 
 def test_a_truth_of_the_state_is_an_input_with_two_cells() -> None:
-    (module,) = meant("""
+    (module,) = meaning_of("""
 environment: {state: {lit: height > 2}}
 behaviors: {stop: {inputs: [tilted, lit]}}
 """).episode.modules

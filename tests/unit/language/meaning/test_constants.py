@@ -2,11 +2,11 @@ import math
 
 import pytest
 
-from tests.unit.language.specs import codes, meant
+from tests.unit.language.specs import codes, meaning_of
 
 
 def constants(text: str, seed: int = 0):
-    return meant(f"constants: {text}", seed).constants
+    return meaning_of(f"constants: {text}", seed).constants
 
 
 def test_numbers_lists_and_expressions() -> None:
@@ -69,8 +69,8 @@ def test_a_mistake_in_a_table_is_told_at_its_item() -> None:
     from bbsd.text import Source
     from tests.unit.language.specs import BASE
 
-    (told,) = check(Source("spec.yaml", "constants:\n  table: [[1, 2],\n          [3, 4 + x]]" + BASE))
-    assert (told.place.line, told.place.column) == (3, 19)
+    (diagnosis,) = check(Source("spec.yaml", "constants:\n  table: [[1, 2],\n          [3, 4 + x]]" + BASE))
+    assert (diagnosis.place.line, diagnosis.place.column) == (3, 19)
 
 
 def test_a_constant_need_not_be_finite() -> None:

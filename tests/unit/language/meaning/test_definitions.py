@@ -3,11 +3,11 @@ from bisect import bisect
 
 import pytest
 
-from tests.unit.language.specs import codes, meant, messages
+from tests.unit.language.specs import codes, meaning_of, messages
 
 
 def test_definitions_follow_the_robot_that_uses_them() -> None:
-    found = meant("""
+    found = meaning_of("""
 environment:
   definitions:
     lead: height - height[0]

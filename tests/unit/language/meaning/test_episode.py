@@ -6,7 +6,7 @@ import pytest
 
 from bbsd.expression.graph import Node, evaluate
 from bbsd.language.meaning import Meaning
-from tests.unit.language.specs import codes, meant, source
+from tests.unit.language.specs import codes, meaning_of, source
 
 
 def value(node: Node, now: dict[Any, float] | None = None, choice: int = 0, step: int = 1) -> Any:
@@ -75,26 +75,28 @@ def test_sensors_and_reward_see_the_values_after_the_step(phases: Meaning) -> No
 
 
 def test_start_values_are_made_in_the_order_they_need_each_other() -> None:
-    meaning = meant("environment: {state: {height: speed + 1, speed: robot}}")
+    meaning = meaning_of("environment: {state: {height: speed + 1, speed: robot}}")
     start = meaning.episode.start
     assert [value(start["height", robot, ()]) for robot in range(3)] == [1, 2, 3]
 
 
 def test_lists_are_stored_element_by_element() -> None:
-    meaning = meant('environment: {sensors: {sonar: "list(height * k for k in range(3))"}}')
+    meaning = meaning_of('environment: {sensors: {sonar: "list(height * k for k in range(3))"}}')
     assert {slot for slot in meaning.episode.after if slot[0] == "sonar"} == {
         ("sonar", robot, (place,)) for robot in range(3) for place in range(3)
     }
 
 
 def test_the_world_is_there_once() -> None:
-    meaning = meant("environment: {world: {wind: 1}, dynamics: {wind: 'wind + max(speed[r] for r in team)'}}")
+    meaning = meaning_of(
+        "environment: {world: {wind: 1}, dynamics: {wind: 'wind + max(speed[r] for r in team)'}}"
+    )
     assert ("wind", None, ()) in meaning.episode.after
 
 
 def test_the_end_is_the_teams() -> None:
-    assert meant("environment: {ends: 'all(height[r] > 3 for r in team)'}").episode.ends is not None
-    assert meant().episode.ends is None
+    assert meaning_of("environment: {ends: 'all(height[r] > 3 for r in team)'}").episode.ends is not None
+    assert meaning_of().episode.ends is None
     assert codes("environment: {ends: height > 3}") == ["BB059"]
     assert codes("environment: {robots: 1, ends: height > 3}") == []
 
@@ -115,12 +117,12 @@ def test_mistakes(environment: str, code: str) -> None:
 def test_a_mistake_for_every_robot_is_told_once() -> None:
     from bbsd.language.loading import check
 
-    (told,) = check(source("environment: {robots: 64}\nreward: {near: hight}"))
-    assert told.code == "BB052"
+    (diagnosis,) = check(source("environment: {robots: 64}\nreward: {near: hight}"))
+    assert diagnosis.code == "BB052"
 
 
 def test_draws_are_other_ones_in_every_place_and_for_every_robot() -> None:
-    meaning = meant("""
+    meaning = meaning_of("""
 environment:
   dynamics: {height: "height + normal(0, 1)", speed: "speed + normal(0, 1)"}
   sensors: {noisy: "height + normal(0, 1)"}

@@ -36,11 +36,11 @@ def test_only_the_uses_of_each_other_count() -> None:
     ],
 )
 def test_circles(uses: dict[str, set[str]], found: list[tuple[str, ...]], involved: set[str]) -> None:
-    told, all_involved = find_circles(uses)
-    assert sorted(tuple(sorted(set(circle))) for circle in told) == sorted(
+    circles, all_involved = find_circles(uses)
+    assert sorted(tuple(sorted(set(circle))) for circle in circles) == sorted(
         tuple(sorted(set(circle))) for circle in found
     )
-    assert all(circle[0] == circle[-1] for circle in told)
+    assert all(circle[0] == circle[-1] for circle in circles)
     assert all_involved == involved
 
 
@@ -51,8 +51,8 @@ def test_each_step_of_a_circle_is_a_use() -> None:
 
 
 def test_of_very_many_circles_not_all_are_told_but_all_are_known() -> None:
-    told, involved = find_circles({str(place): {str(place)} for place in range(200)})
-    assert len(told) == 50
+    circles, involved = find_circles({str(place): {str(place)} for place in range(200)})
+    assert len(circles) == 50
     assert len(involved) == 200
 
 

@@ -1,11 +1,11 @@
 import pytest
 
 from bbsd.expression.graph import Node, evaluate
-from tests.unit.language.specs import codes, meant
+from tests.unit.language.specs import codes, meaning_of
 
 
 def cells(partition: str) -> tuple[str, ...]:
-    meaning = meant(f"behaviors: {{stop: {{inputs: {{reached: {partition}}}}}}}")
+    meaning = meaning_of(f"behaviors: {{stop: {{inputs: {{reached: {partition}}}}}}}")
     return tuple(meaning.episode.modules[0].inputs["reached"])
 
 
@@ -21,7 +21,7 @@ def test_labels(partition: str, labels: tuple[str, ...]) -> None:
 
 
 def index_at(partition: str, height: float) -> int:
-    module = meant(f"behaviors: {{stop: {{inputs: {{reached: {partition}}}}}}}").episode.modules[0]
+    module = meaning_of(f"behaviors: {{stop: {{inputs: {{reached: {partition}}}}}}}").episode.modules[0]
     return int(evaluate([module.cells[0][0]], lambda _node, _operands: height)[0])
 
 
@@ -41,7 +41,7 @@ def test_the_first_condition_that_holds_names_the_cell(height: float, cell: int)
 
 
 def test_a_partition_may_be_shared_as_a_sensor() -> None:
-    meaning = meant(
+    meaning = meaning_of(
         "environment: {sensors: {zone: {low: height < 1, high: otherwise}}}\nbehaviors: {stop: {inputs: [zone]}}"
     )
     assert meaning.episode.modules[0].inputs == {"zone": ("low", "high")}
@@ -51,7 +51,7 @@ def test_bounds_may_be_constants_and_are_labelled_by_their_names() -> None:
     part = (
         'constants: {low: 1, high: low + 1}\nbehaviors: {stop: {inputs: {reached: "cut(height, low, high)"}}}'
     )
-    assert meant(part).episode.modules[0].inputs["reached"] == ("below low", "low to high", "from high")
+    assert meaning_of(part).episode.modules[0].inputs["reached"] == ("below low", "low to high", "from high")
 
 
 @pytest.mark.parametrize(
@@ -74,6 +74,6 @@ behaviors:
     inputs:
       reached: "values(speed, 0, table[k])"
 """
-    module = meant(part).episode.modules[0]
+    module = meaning_of(part).episode.modules[0]
     assert len(module.inputs["reached"]) == 6
     assert isinstance(module.cells[0][0], Node)

@@ -9,7 +9,7 @@ from bbsd.expression.graph import Node, needed
 from bbsd.language.loading import load
 from bbsd.language.meaning.picture import Picture
 from bbsd.text import Source
-from tests.unit.language.specs import codes, meant, messages
+from tests.unit.language.specs import codes, meaning_of, messages
 
 SPECS = Path(__file__).parents[4] / "specs"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
@@ -29,7 +29,7 @@ view:
 
 
 def picture(part: str) -> Picture:
-    found = meant(part).episode.picture
+    found = meaning_of(part).episode.picture
     assert found is not None
     return found
 
@@ -40,8 +40,8 @@ def read(*nodes: Node) -> list[object]:
 
 
 def test_a_spec_without_a_view_has_no_picture() -> None:
-    assert meant().episode.picture is None
-    assert meant("view: null").episode.picture is None
+    assert meaning_of().episode.picture is None
+    assert meaning_of("view: null").episode.picture is None
 
 
 def test_a_picture_reads_what_is_stored_robot_by_robot() -> None:

@@ -1,14 +1,14 @@
 import pytest
 
-from tests.unit.language.specs import codes, meant
+from tests.unit.language.specs import codes, meaning_of
 
 
 def rates(design: str):
-    return meant(f"constants: {{fast: 0.5, later: 1 if generation > 2 else 0}}\ndesign: {design}").rates
+    return meaning_of(f"constants: {{fast: 0.5, later: 1 if generation > 2 else 0}}\ndesign: {design}").rates
 
 
 def test_defaults_are_those_of_table_1() -> None:
-    found = meant().rates
+    found = meaning_of().rates
     assert found.hard_mutation[0] == 0.01
     assert found.hard_mutation[40:] == (0.0,) * 10
     assert found.soft_mutation[0] == 0.02

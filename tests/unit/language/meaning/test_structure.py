@@ -1,7 +1,7 @@
 import pytest
 
 from bbsd.language.meaning.structure import OPEN_LAYER, Structure
-from tests.unit.language.specs import codes, meant
+from tests.unit.language.specs import codes, meaning_of
 
 BEHAVIORS = (
     "behaviors: {a: {actions: {go: {}}}, b: {actions: {go: {}}}, c: {actions: {go: {}}}, stop: null}\n"
@@ -9,7 +9,7 @@ BEHAVIORS = (
 
 
 def structure(part: str) -> Structure:
-    return meant(BEHAVIORS + part).structure
+    return meaning_of(BEHAVIORS + part).structure
 
 
 def test_without_a_structure_all_layers_are_open() -> None:

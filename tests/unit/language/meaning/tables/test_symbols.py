@@ -8,7 +8,7 @@ from bbsd.language.meaning.behaviors import MAX_ACTIONS
 from bbsd.language.meaning.tables.symbols import SYMBOLS, filled_text, table_of_text, text_of_table
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL
 from bbsd.text import Source, read, write
-from tests.unit.language.specs import check, codes, meant, source
+from tests.unit.language.specs import check, codes, meaning_of, source
 
 INPUTS = {"near": ("false", "true"), "pace": ("0", "1", "2")}
 ACTIONS = ("halt", "push")
@@ -85,8 +85,8 @@ def test_a_line_unlike_the_others_is_the_one_that_is_wrong() -> None:
 
 
 def test_characters_that_stand_for_nothing_are_told_once_each() -> None:
-    told = mistakes("!.!\n.3-")
-    assert [(message, span) for message, span, _ in told] == [
+    reports = mistakes("!.!\n.3-")
+    assert [(message, span) for message, span, _ in reports] == [
         ('"!" stands for nothing in a table', Span(0, 1)),
         ('"3" stands for action 3, and there are 2', Span(5, 1)),
         ('"-" stands for nothing in a table', Span(6, 1)),
@@ -99,15 +99,15 @@ def test_of_inputs_and_actions_that_are_not_known_nothing_is_said() -> None:
 
 
 def test_a_spec_may_give_a_table_instead_of_rules() -> None:
-    (module,) = meant("behaviors: {stop: {table: '.1'}}").episode.modules
+    (module,) = meaning_of("behaviors: {stop: {table: '.1'}}").episode.modules
     assert [*module.table.given] == [0, 1]
 
 
 @pytest.mark.parametrize("written", ["01", "0", "1.1", "0x1f", "1e5", "true"])
 def test_what_yaml_reads_as_a_number_is_not_taken_for_another_table(written: str) -> None:
     text = source().text.replace("    inputs:", f"    table: {written}\n    inputs:")
-    [told] = check(Source("spec.yaml", text))
-    assert (told.code, told.advice) == ("BB022", "put it in quotes")
+    [diagnosis] = check(Source("spec.yaml", text))
+    assert (diagnosis.code, diagnosis.advice) == ("BB022", "put it in quotes")
 
 
 def test_rules_and_a_table_exclude_each_other() -> None:
@@ -129,4 +129,4 @@ reward: {{near: x}}
     ("at", "found"), [("values(x, 0, 9)", ["BB046", "BB046", "BB022"]), ("[1, 2]", ["BB051", "BB022"])]
 )
 def test_a_table_is_told_of_beside_mistakes_elsewhere_but_not_of_what_follows_from_them(at, found):
-    assert [each.code for each in check(Source("two.yaml", TWO.format(at=at)))] == found
+    assert [diagnosis.code for diagnosis in check(Source("two.yaml", TWO.format(at=at)))] == found
