@@ -327,4 +327,25 @@ SPEC_KINDS = (
         example="view:\n  at: height",
         mend="view:\n  at: [robot, height]",
     ),
+    DiagnosisKind(
+        code="BB070",
+        title="a budget beside generations",
+        explanation=(
+            "The episodes of the paper's loop are given by its generations, or by a budget from which the "
+            "generations follow; with both, one of the two would have no effect."
+        ),
+        example="design:\n  method: paper\n  budget: 300_000\n  coevolution:\n    generations: 50",
+        mend="design:\n  method: paper\n  budget: 300_000",
+    ),
+    DiagnosisKind(
+        code="BB071",
+        title="exploration without effect",
+        explanation=(
+            "Exploration tries random structures in the episodes of a lifetime before the last ones. It does "
+            "nothing where there is no structure to learn, where all episodes are last ones, and in methods other than "
+            "paper."
+        ),
+        example="design:\n  method: random\n  learning:\n    exploration: 0.1",
+        mend="design:\n  method: random",
+    ),
 )

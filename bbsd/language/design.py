@@ -4,10 +4,26 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from bbsd.language.base import Part
-from bbsd.language.field_types import Expression, ExpressionText, Whole, expression, shape
+from bbsd.language.field_types import (
+    Expression,
+    ExpressionText,
+    Whole,
+    expression,
+    grouped,
+    shape,
+    word_or_number,
+)
+
+MethodName = Literal[
+    "auto", "paper", "societies", "practice", "cross_entropy", "random", "hill", "joint", "q"
+]
+LOOP = ("coevolution", "learning", "culture", "sharing")
+"""The keys of the paper's loop: a spec that has any of them and names no method is designed by it."""
+LEAST_BUDGET = 5_000
+"""Episodes; with fewer, the final race cannot let two designs run 400 episodes each."""
 
 HARD_MUTATION = "0.01 / log2(generation + 1) if generation <= 0.8 * generations else 0"
 
@@ -109,6 +125,21 @@ class Answer(Part):
 class Design(Part):
     """How the holes of a spec are filled."""
 
+    method: MethodName = Field(
+        "auto",
+        description="How designs are searched for; without it, `paper` where any of coevolution, learning, culture "
+        "and sharing is given.",
+    )
+    budget: Annotated[
+        Annotated[Whole, Field(ge=LEAST_BUDGET, le=1_000_000_000_000), Tag("<number>")]
+        | Annotated[Literal["auto"], Tag("<word>")],
+        Discriminator(word_or_number),
+        BeforeValidator(grouped),
+    ] = Field(
+        "auto",
+        description="Episodes of a run in all, the final race included, at least 5,000; with `paper`, those of its "
+        "generations.",
+    )
     layers: Whole | None = Field(
         None,
         ge=1,
@@ -125,3 +156,20 @@ class Design(Part):
         Discriminator(shape),
     ] = Field(CultureSettings(), description="The culture of memes, or none.")
     answer: Answer = Field(Answer(), description="The choice of the final answer.")
+
+    @property
+    def loop_keys(self) -> tuple[str, ...]:
+        """The keys of the paper's loop that are given."""
+        return tuple(key for key in LOOP if key in self.model_fields_set)
+
+    @property
+    def chosen_method(self) -> MethodName:
+        """The method that is named, or else meant by the keys that are given."""
+        if "method" in self.model_fields_set:
+            return self.method
+        return "paper" if self.loop_keys else "auto"
+
+    @property
+    def episodes(self) -> int | None:
+        """The budget of a run as a number, or None where it is automatic."""
+        return None if self.budget == "auto" else self.budget

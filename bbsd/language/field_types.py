@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from bbsd.expression.tree import Expr
 
+GROUPED = re.compile(r"[1-9][0-9]{0,2}(?:_[0-9]{3})+")
 SIGNATURE = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\)\s*)?")
 
 
@@ -126,6 +127,16 @@ def is_value_name(text: str) -> bool:
 def shape(value: object) -> str:
     """Return a tag for a value as a mapping or in another form; no key of a spec looks like a tag."""
     return "<other>" if isinstance(value, str | int | float | list) or value is None else "<mapping>"
+
+
+def grouped(value: object) -> object:
+    """Return the whole number that a text such as 300_000 is; any other value as it is."""
+    return int(value) if isinstance(value, str) and GROUPED.fullmatch(value) else value
+
+
+def word_or_number(value: object) -> str:
+    """Return a tag for a value as a word or as a number."""
+    return "<word>" if isinstance(value, str) else "<number>"
 
 
 def name(value: str) -> str:

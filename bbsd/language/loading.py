@@ -63,7 +63,7 @@ def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loa
         if in_overrides := [diagnosis for diagnosis in diagnoses if diagnosis.place.file == OVERRIDES]:
             raise SpecError(_capped(in_overrides), overrides_source(overrides))
         raise files.error(_capped(diagnoses))
-    return Loaded(source, files, data, spec, meaning)
+    return Loaded(source, files, data, meaning.spec, meaning)
 
 
 def check(source: Source, seed: int = 0) -> tuple[Diagnosis, ...]:

@@ -116,7 +116,7 @@ def _dependent(path: Path) -> set[str]:
         case ("behaviors", _, "inputs" | "actions", *_):
             return {"BB046"}
         case ("design", *_):
-            return {"BB042", "BB043"}
+            return {"BB042", "BB043", "BB070", "BB071"}
     return set()
 
 

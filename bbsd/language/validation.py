@@ -171,6 +171,7 @@ NEEDED_BY_KEY = {
     "rules": "a list of rules",
     "structure": "a list of behaviors",
     "culture": "a mapping or none",
+    "budget": "a whole number of episodes from 5 000 on, or auto",
 }
 NEEDED_BY_ERROR = {
     "not_an_expression": "an expression",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get
 from annotated_types import Ge, Le, MaxLen, MinLen
 
 from bbsd.expression.vocabulary import RESERVED, UNREADABLE
-from bbsd.language import field_types, models, view
+from bbsd.language import design, field_types, models, view
 from bbsd.language.base import FREE, Part
 from bbsd.language.field_types import Expression
 from bbsd.text.core_schema import meaning
@@ -210,11 +210,18 @@ PLACE_SCHEMA: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems":
 CORNERS_SCHEMA: Schema = {"anyOf": [{"type": "array", "items": SCALAR, "minItems": 4, "maxItems": 4}, SCALAR]}
 DECISION_SCHEMA = _word_or_name(models.NO_ACTION_TEXT, models.OPEN)
 CELLS_SCHEMA: Schema = {"anyOf": [SCALAR, {"type": "array", "items": SCALAR, "minItems": 1}]}
+BUDGET_SCHEMA: Schema = {
+    "anyOf": [
+        {"type": "integer", "minimum": design.LEAST_BUDGET},
+        {"type": "string", "anyOf": [{"enum": ["auto"]}, {"pattern": f"^{field_types.GROUPED.pattern}$"}]},
+    ]
+}
 KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
     (models.When, "when"): {**_mapping(str, str), "additionalProperties": CELLS_SCHEMA},
     (models.When, "do"): DECISION_SCHEMA,
     (models.Otherwise, "otherwise"): DECISION_SCHEMA,
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
+    (design.Design, "budget"): BUDGET_SCHEMA,
     (view.View, "at"): PLACE_SCHEMA,
     (view.View, "area"): CORNERS_SCHEMA,
     (view.View, "marks"): {**_mapping(field_types.NameText, str), "additionalProperties": PLACE_SCHEMA},

@@ -8,6 +8,7 @@ from bbsd.expression.graph import Graph, GraphTooLargeError
 from bbsd.expression.mistakes import Mistake, TooManyMistakesError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
 from bbsd.language.meaning.constants import read_constants
+from bbsd.language.meaning.contradictions import report_contradictions, with_generations
 from bbsd.language.meaning.definitions import (
     read_definitions,
     report_duplicates,
@@ -56,6 +57,9 @@ def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings
     constants = read_constants(spec.constants, seed_key(seed), graph, findings, frozenset(unusable))
     episode = elaborate_episode(Names(spec, graph, findings, constants, definitions, unusable))
     structure = elaborate_structure(spec, findings, broken)
+    report_contradictions(spec.design, findings, structure_is_open=structure.is_open)
+    design = with_generations(spec.design, structure_is_open=structure.is_open)
+    spec = spec.model_copy(update={"design": design}) if design is not spec.design else spec
     shared = {name: Shared(value) for name, value in constants.values.items()} | unusable
     rates = evaluate_rates(spec, graph, findings, shared)
     report_fractions(episode, constants, findings)

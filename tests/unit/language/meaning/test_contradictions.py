@@ -1,0 +1,58 @@
+import pytest
+
+from bbsd.language.loading import load
+from tests.unit.language.specs import codes, meaning_of, source
+
+TWO = "behaviors: {go: {inputs: {low: height < 2}, actions: {up: {speed: 1}}}}\n"
+
+
+def method(part: str, *overrides: str) -> str:
+    return load(source(part), overrides=overrides).spec.design.chosen_method
+
+
+@pytest.mark.parametrize(
+    "part", ["coevolution: {agents: 9}", "learning: {episodes: 9}", "culture: none", "sharing: value"]
+)
+def test_a_spec_with_settings_of_the_loop_and_no_method_means_the_paper_s(part: str) -> None:
+    assert method(f"design: {{{part}}}") == "paper"
+    assert method(f"design: {{{part}, method: auto}}") == "auto"
+    assert method("design: {answer: {judged: 100}, layers: 1}") == "auto"
+
+
+def test_an_override_is_a_setting_like_any_other() -> None:
+    assert method("", "design.coevolution.generations=3") == "paper"
+    assert method("design: {sharing: value}", "design.method=random") == "random"
+
+
+def test_a_budget_may_be_grouped_and_is_no_small_number() -> None:
+    assert meaning_of("design: {budget: 300_000}").spec.design.episodes == 300_000
+    assert meaning_of("design: {budget: auto}").spec.design.episodes is None
+    assert codes("design: {budget: 4999}") == ["BB023"]
+    assert codes("design: {budget: some}") == ["BB023"]
+    assert codes("design: {budget: [1]}") == ["BB022"]
+
+
+def test_generations_of_the_paper_s_loop_follow_from_a_budget() -> None:
+    given = meaning_of("design: {method: paper, budget: 100_000, coevolution: {agents: 100}}").spec.design
+    assert given.coevolution.generations == 200  # lifetimes of five episodes: there is no structure to learn
+    both = (
+        TWO + "design: {method: paper, budget: 100_000, coevolution: {agents: 100}, learning: {episodes: 10}}"
+    )
+    assert meaning_of(both).spec.design.coevolution.generations == 100
+    assert len(meaning_of(both).rates.hard_mutation) == 100
+
+
+def test_a_budget_beside_generations_is_a_mistake_of_the_paper_s_loop_alone() -> None:
+    both = "budget: 100_000, coevolution: {generations: 5}"
+    assert codes(f"design: {{{both}}}") == ["BB070"]
+    assert codes(f"design: {{method: random, {both}}}") == []
+    assert codes("design: {budget: auto, coevolution: {generations: 5}}") == []
+
+
+def test_exploration_without_effect_is_a_mistake() -> None:
+    learning = "learning: {episodes: 10, last: 4, exploration: 0.1}"
+    assert codes(f"{TWO}design: {{{learning}}}") == []
+    assert codes(f"design: {{{learning}}}") == ["BB071"]  # one behavior: no structure to learn
+    assert codes(f"{TWO}design: {{method: random, {learning}}}") == ["BB071"]
+    assert codes(f"{TWO}design: {{{learning.replace('4', '10')}}}") == ["BB071"]
+    assert codes("design: {learning: {exploration: 0}}") == []
