@@ -140,24 +140,6 @@ class Space:
             changed[row] = with_behavior(changed[row], layer, behavior)
         return changed
 
-    def neighbors(self, design: Designs) -> Designs:
-        """Return all designs that differ from one in one cell, or in the place of one behavior."""
-        (table,), (structure,) = design.tables, design.structures
-        tables, structures = [], []
-        for cell in self.open_cells:
-            for choice in range(self.choices[cell]):
-                if choice != table[cell]:
-                    changed = table.copy()
-                    changed[cell] = choice
-                    tables.append(changed)
-                    structures.append(structure)
-        for order in self.neighboring_orders(structure):
-            tables.append(table)
-            structures.append(order)
-        if not tables:
-            return Designs(np.empty((0, len(table)), np.uint8), np.empty((0, len(structure)), np.int64))
-        return Designs(np.stack(tables), np.stack(structures))
-
     def neighboring_orders(self, structure: NDArray[np.int64]) -> list[NDArray[np.int64]]:
         """Return the structures in which one open layer has another candidate, which gives its own place for it."""
         if not self.orders_differ:

@@ -1,0 +1,155 @@
+import numpy as np
+import pytest
+
+from bbsd.solver.arena import Arena
+from bbsd.solver.changes import changes_of
+from bbsd.solver.climb import MOST_EPISODES, advance_climb, begin_climb
+from bbsd.solver.methods.method import arrays_of, restored
+from bbsd.solver.space import Designs
+from tests.unit.problems import problem_of
+from tests.unit.solver.problems import guess
+
+PATH = """
+bbsd: 1
+name: path
+environment:
+  steps: 4
+  state: {{at: "integers(0, 3)", paid: 0, luck: 0}}
+  dynamics: {{luck: {luck}}}
+  sensors: {{seen: "values(at, 0, 9)"}}
+behaviors:
+  walk: {{inputs: [seen], actions: {{a: {{paid: 1}}, b: {{paid: 2}}, c: {{paid: 3}}}}}}
+reward: {{gain: paid + luck}}
+"""
+"""Each of ten cells, of which four are ever asked, is the better the higher its choice."""
+
+COIN = """
+bbsd: 1
+name: coin
+environment: {steps: 1, state: {side: "chance(0.5)", bet: false}}
+behaviors: {bet: {actions: {heads: {bet: true}, tails: {bet: false}}}}
+reward: {gain: 1 if side == bet else 0}
+"""
+"""Heads are as good as tails, and nothing is tails."""
+
+
+def path(luck="0", lanes=50):
+    return Arena(problem_of(PATH.format(luck=f'"{luck}"'), lanes=lanes), 1)
+
+
+def design(*cells):
+    return Designs(np.array([cells], np.uint8), np.array([[0]]))
+
+
+NONE = design(*[0] * 10)
+
+
+def climbed(arena, start, key=1, budget=100_000, most_episodes=MOST_EPISODES):
+    """The states of a climb, the first included."""
+    climbs = [begin_climb(start)]
+    while not climbs[-1].at_optimum and climbs[-1].spent < budget:
+        climbs.append(advance_climb(climbs[-1], arena, key, budget, most_episodes))
+    return climbs
+
+
+def test_a_climb_ends_where_no_change_helps():
+    *_, end = climbed(path(), NONE)
+    assert end.at_optimum
+    assert end.design.tables[0].tolist() == [3, 3, 3, 3, 0, 0, 0, 0, 0, 0]
+    assert end.mean == 12
+
+
+def test_no_change_of_the_end_helps():
+    problem, _ = guess()
+    arena = Arena(problem, 1)
+    *_, end = climbed(arena, arena.space.random(3, 1))
+    changes = changes_of(arena.space, end.design)
+    rows = changes.applied(np.arange(len(changes))).joined(end.design)
+    *others, own = arena.means(rows, 9, 400)
+    assert end.at_optimum
+    assert max(others) <= own
+
+
+def test_improvements_of_different_cells_are_made_together():
+    climbs = climbed(path(), NONE)
+    # At most one cell was asked too seldom to be sure at once; the last pass is the one in which nothing helps.
+    assert climbs[-1].passes <= 3
+
+
+def test_without_noise_the_last_pass_takes_one_round():
+    *_, end = climbed(path(), design(3, 3, 3, 3, 0, 0, 0, 0, 0, 0))
+    assert (end.passes, end.spent) == (1, 50 * 31)
+
+
+def test_what_is_never_asked_costs_the_first_round_only():
+    # The only changes that can be in doubt are 3 x 4 of the cells that are asked; the noise is the same for all.
+    first = climbed(path("normal(0, 1)"), NONE, budget=50 * 31)[1]
+    assert (first.spent - 50 * 31) % 50 == 0
+    doubtful = climbed(path("normal(0, paid)"), design(3, 3, 3, 3, 0, 0, 0, 0, 0, 0), budget=50 * 31)[-1]
+    assert set(changes_of(path().space, doubtful.design).cells[doubtful.running]) <= {0, 1, 2, 3}
+
+
+def test_noise_that_is_common_does_not_hide_a_gain():
+    *_, end = climbed(path("normal(0, 1000)"), NONE)
+    assert end.design.tables[0].tolist() == [3, 3, 3, 3, 0, 0, 0, 0, 0, 0]
+
+
+def test_a_small_gain_within_noise_of_its_own_is_found_in_longer_rounds():
+    # From 2 to 3 is a gain of 4 in four steps, beside a deviation of 12, in a quarter of the episodes.
+    start = design(3, 3, 3, 2, 0, 0, 0, 0, 0, 0)
+    climbs = climbed(path("normal(0, 6 * paid)"), start, budget=20_000)
+    assert climbs[-1].design.tables[0, :4].tolist() == [3, 3, 3, 3]
+    assert max(climb.episodes for climb in climbs if not climb.passes) >= 200
+
+
+def test_choices_that_are_worth_the_same_are_given_up_at_last():
+    climbs = climbed(Arena(problem_of(COIN, lanes=50), 1), design(1), key=2, most_episodes=400)
+    assert climbs[-1].at_optimum
+    assert (climbs[-1].passes, climbs[-1].spent) == (1, 3 * 400)
+
+
+@pytest.mark.parametrize("budget", [1, 2, 3, 49, 51, 1000, 1549, 1551, 3000])
+def test_a_climb_never_spends_more_than_its_budget_and_always_something(budget):
+    spent = [climb.spent for climb in climbed(path("normal(0, paid)"), NONE, budget=budget)]
+    assert spent[-1] == budget or spent[-1] > budget - 50
+    assert spent[-1] <= budget
+    assert (np.diff(spent) > 0).all()
+
+
+def test_spent_is_what_episodes_ran(monkeypatch):
+    ran, returns = [], Arena.returns
+
+    def counted(self, designs, key, count, first=0):
+        ran.append(len(designs) * count)
+        return returns(self, designs, key, count, first)
+
+    monkeypatch.setattr(Arena, "returns", counted)
+    *_, end = climbed(path("normal(0, paid)"), NONE, budget=8_000)
+    assert sum(ran) == end.spent
+
+
+def test_an_optimum_is_not_claimed_while_changes_were_left_out():
+    *_, end = climbed(path(), design(3, 3, 3, 3, 0, 0, 0, 0, 0, 0), budget=50 * 20)
+    assert not end.at_optimum
+
+
+def test_a_design_without_changes_is_an_optimum_that_costs_nothing():
+    text = PATH.format(luck="0").replace("c: {paid: 3}}", "c: {paid: 3}}, rules: [otherwise: a]")
+    arena = Arena(problem_of(text), 1)
+    end = advance_climb(begin_climb(NONE), arena, 1, 100)
+    assert (end.at_optimum, end.spent) == (True, 0)
+
+
+def test_a_climb_that_was_written_down_goes_on_equally():
+    arena = path("normal(0, paid)")
+    climbs = climbed(arena, NONE, budget=8_000)
+    half = climbs[len(climbs) // 2]
+    again = restored(begin_climb(NONE), arrays_of(half))
+    while not again.at_optimum and again.spent < 8_000:
+        again = advance_climb(again, arena, 1, 8_000)
+    assert str(arrays_of(again)) == str(arrays_of(climbs[-1]))
+
+
+def test_lanes_change_nothing():
+    ends = [climbed(path("normal(0, paid)", lanes), NONE, budget=8_000)[-1] for lanes in (1, 64)]
+    assert str(arrays_of(ends[0])) == str(arrays_of(ends[1]))
