@@ -29,7 +29,7 @@ ACTION_BITS = 16
 
 @dataclass
 class Arbitration:
-    """What finds the action that controls each robot."""
+    """The statements that find the action that controls each robot."""
 
     function: RolloutFunction
 

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 LONGEST_TEXT = 88
 """Characters of an expression without a name; a longer one gets a name, so that lines can be read."""
 DEEPEST = 50
-"""Operations within one another at which a value gets a name, however short its source."""
+"""Operations within one another at which a value gets a name, however short its source: so nothing recurses far."""
 LEAF = frozenset({"slot", "constant", "step", "start"})
 """Operations that read a value from an array, an argument or a variable of the loops."""
 STANDING = frozenset({"over", "each", "among"})
@@ -57,7 +57,7 @@ class Usage(NamedTuple):
     counts: Counter[int]
     """By the node's number, how often a value is used."""
     deep: set[int]
-    """Nodes far above their leaves."""
+    """Nodes far above their leaves that are not yet written: they are written first, so that nothing recurses far."""
     stage_of: dict[int, int]
     """By the node's number, the stage in which a value is computed."""
 
@@ -73,13 +73,13 @@ def usage_of(outputs: Iterable[Node], decided: int = 0) -> Usage:
 
 @dataclass(slots=True)
 class Emitter:
-    """A writer of values into the blocks of a function, each where its level and stage say."""
+    """A writer that computes each value in the block that its level and stage say."""
 
     namer: Namer
     loops: Loops
-    """What is special where there are loops over robots, and how values cross from one stage to another."""
+    """The source of operations on robots, and of values that cross from one stage to another."""
     leaf: Callable[[Node], Text]
-    """Returns the source of a slot, a constant or the step."""
+    """The source of a slot, a constant or the step."""
     key: Text
     """The lane's key."""
     step: Text

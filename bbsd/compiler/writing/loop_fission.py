@@ -20,9 +20,15 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.rollout_function import RolloutFunction
 
 MOST_SEEN = 2
-"""Other robots whose values a loop reads: with more of them LLVM does not compare all ranges that might overlap."""
+"""Other robots whose values one loop may read.
+
+For more of them LLVM does not compare all ranges of memory that might overlap, and the loop is not vectorized.
+"""
 SHORTEST, LONGEST = 12, 60
-"""Statements of a loop: fewer are not worth one, more are cut anywhere."""
+"""Statements of a loop: fewer are not worth one, more are cut anywhere.
+
+A step of lifting as one loop had some 400 instructions, which fill a reorder buffer: 3.0 ns a robot-step, 1.65 ns cut.
+"""
 
 
 def loop_lines(
@@ -56,9 +62,7 @@ def loops(block: Block, function: RolloutFunction) -> list[list[str]]:
     """
     parts = _cut([*block.statements, *block.after], block.robots_seen)
     uses = [frozenset[str]().union(*(statement.uses for statement in part)) for part in parts]
-    definitions = [
-        [each for each in part if isinstance(each, Assignment) and each.is_definition] for part in parts
-    ]
+    definitions = [_definitions(part) for part in parts]
     kept, read = dict(block.kept), dict(block.read)
     for index, defined in enumerate(definitions):
         used_later = frozenset[str]().union(*uses[index + 1 :])
@@ -74,6 +78,12 @@ def loops(block: Block, function: RolloutFunction) -> list[list[str]]:
             *_stores(kept, defined, function),
         ]
         for part, used, defined in zip(parts, uses, definitions, strict=True)
+    ]
+
+
+def _definitions(statements: Sequence[Statement]) -> list[Assignment]:
+    return [
+        statement for statement in statements if isinstance(statement, Assignment) and statement.is_definition
     ]
 
 

@@ -157,7 +157,7 @@ class Loops:
             writer.blocks.robot(into.stage).define(name, infix("*", self._which(robots), STRIDE))
             self.seen[into.stage, robots] = name
         name = self.seen[into.stage, robots]
-        into.robots_seen.add(name)
+        into.see_robot(name)
         return name_text(name)
 
     def _which(self, robots: tuple[int, ...]) -> Text:

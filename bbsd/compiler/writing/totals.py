@@ -1,4 +1,4 @@
-"""Sums over an episode: returns and credit; for an evaluation also terms, control, steps and unusual values."""
+"""Sums over an episode: returns and credit; for an evaluation also terms, control, steps and values not finite."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 MOST_ADDED = 3
 """Conditional sums in one expression, so that lines can be read."""
 DETAILED = ("terms", "control", "steps_taken", "not_finite", "expectations_met")
-"""The arguments that a detailed rollout has besides."""
+"""The arguments that a detailed rollout has besides, in their order."""
 
 
 @dataclass
 class Totals:
-    """What a rollout adds up over an episode."""
+    """The statements that add up an episode."""
 
     function: RolloutFunction
     arbitration: Arbitration
