@@ -1,4 +1,4 @@
-"""What an expression is by its form alone, whatever its parts are."""
+"""The kind of an expression, as far as its outermost operation tells."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ AGGREGATES_OF_TRUTHS = ("any", "all")
 
 
 def kind_by_form(expr: Expr) -> Kind:
-    """Number or truth where that follows from the outermost operation; else unknown."""
+    """Return number or truth where the outermost operation tells, else unknown."""
     match expr:
         case Number() | Binary() | Unary(operator="-" | "+"):
             return Kind.NUMBER

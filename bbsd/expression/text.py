@@ -1,4 +1,4 @@
-"""A tree back to text that parses to the same tree, with no more parentheses than it needs."""
+"""Tree to text, which parses to the same tree and has no more parentheses than it needs."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ SIGN, POWER, ATOM = 7, 8, 9
 
 
 def number_text(value: float) -> str:
-    """The shortest text of a number; whole numbers without a point."""
+    """Return the shortest text of a number; whole numbers have no point."""
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
 
 def render(expr: Expr) -> str:
-    """The text of an expression."""
+    """Return the text of an expression."""
     return _render(expr)[0]
 
 

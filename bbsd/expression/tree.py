@@ -1,4 +1,4 @@
-"""The parts of an expression, each with the span of text it was written in."""
+"""The syntax tree of expressions; each part has the span of text in which it is written."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Condition
 
 
 def parts(expr: Expr) -> tuple[Expr, ...]:
-    """The expressions that `expr` is directly made of, in the order they are written."""
+    """Return the direct parts of an expression in the order in which they are written."""
     match expr:
         case Number() | Truth() | Name():
             return ()
@@ -137,7 +137,7 @@ def parts(expr: Expr) -> tuple[Expr, ...]:
 
 
 def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[str]:
-    """All names and called functions in `expr` that it does not itself bind."""
+    """Return all names and called functions in an expression that it does not bind itself."""
     match expr:
         case Name(name=name):
             return frozenset({name}) - hidden
@@ -149,8 +149,8 @@ def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[st
             return frozenset().union(*(names_used(part, hidden) for part in parts(expr)))
 
 
-def frames(expr: Expr) -> int:
-    """How deep Python's stack gets, at most, while an expression is elaborated, not counting what its names need."""
+def stack_depth(expr: Expr) -> int:
+    """Return the most frames on Python's stack while an expression is elaborated, without those for its names."""
     match expr:
         case Number() | Truth() | Name():
             return 1
@@ -162,4 +162,4 @@ def frames(expr: Expr) -> int:
             own = 0
         case _:
             own = 3
-    return own + max((frames(part) for part in parts(expr)), default=0)
+    return own + max((stack_depth(part) for part in parts(expr)), default=0)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
-from bbsd.expression.tree import frames, names_used
+from bbsd.expression.tree import names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
 from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
@@ -99,7 +99,7 @@ class Needs(NamedTuple):
     def of(cls, trees: Sequence[Expr], parameters: Sequence[str] = ()) -> Needs:
         """Return what expressions need, in which the parameters are given."""
         used = frozenset[str]().union(*(names_used(tree, frozenset(parameters)) for tree in trees))
-        return cls(used, FRAMES_OF_A_NAME + max(map(frames, trees), default=0))
+        return cls(used, FRAMES_OF_A_NAME + max(map(stack_depth, trees), default=0))
 
 
 def _trees(expressions: Iterable[Expression]) -> list[Expr]:

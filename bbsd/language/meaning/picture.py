@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
-from bbsd.expression.checks import of_kind
+from bbsd.expression.checks import require_kind
 from bbsd.expression.graph import Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.mistakes import WHOLE
@@ -79,7 +79,7 @@ class _Read:
 
     def number(self) -> Node:
         """Return the value as a number; report anything else."""
-        return of_kind(self.value, Kind.NUMBER, self.span, self.scope)
+        return require_kind(self.value, Kind.NUMBER, self.span, self.scope)
 
     def rows(self, fewest: int = 0) -> tuple[_Read, ...]:
         """Return the items of a list; report anything else, or too short a list."""
@@ -123,7 +123,7 @@ def _circles(read: _Read) -> tuple[Row, ...]:
 def _area(read: _Read) -> Row | None:
     """Return the corners, and report them where they are known not to lie apart."""
     corners = read.row((4,), "[x, y, x, y], two corners")
-    known = [read.scope.known(node) for node in corners if node.kind is not Kind.UNKNOWN]
+    known = [read.scope.static_value(node) for node in corners if node.kind is not Kind.UNKNOWN]
     if len(known) == 4 and None not in known and (known[0] == known[2] or known[1] == known[3]):
         read.scope.mistake("BB049", "this area has no extent: its corners do not lie apart", read.span)
     return corners
