@@ -24,7 +24,7 @@ MOST_SEEN = 2
 
 For more of them LLVM does not compare all ranges of memory that might overlap, and the loop is not vectorized.
 """
-SHORTEST, LONGEST = 12, 60
+SHORTEST_LOOP, LONGEST_LOOP = 12, 60
 """Statements of a loop: fewer are not worth one, more are cut anywhere.
 
 A step of lifting as one loop had some 400 instructions, which fill a reorder buffer: 3.0 ns a robot-step, 1.65 ns cut.
@@ -42,20 +42,20 @@ def loop_lines(
     stages = [stage for stage in blocks.in_order() if not stage.is_empty]
     for stage in stages:
         block = stage.block
-        bodies = [body for body in (loops(block, function) if split else [block.lines]) if body]
+        bodies = [body for body in (split_loop(block, function) if split else [block.lines]) if body]
         bodies += [[*apart]] if apart and stage is stages[-1] else []
         if block.level is Level.EACH:
             before = [*(stage.robot.lines if stage.robot else ())]
             for others, pair in stage.pairs.items():
                 shared = [definition.line for definition in pair.before]
-                before += function.pair_loop(shared, loops(pair, function), others=others)
+                before += function.pair_loop(shared, split_loop(pair, function), others=others)
             lines += function.robot_loop(before, bodies)
         else:
             lines += [line for body in bodies for line in function.lane_loop(body)]
     return lines
 
 
-def loops(block: Block, function: RolloutFunction) -> list[list[str]]:
+def split_loop(block: Block, function: RolloutFunction) -> list[list[str]]:
     """Return the bodies of loops that together do what one loop over a block's statements does.
 
     Each begins with reading the values that others computed and ends with storing those that others need.
@@ -93,7 +93,7 @@ def _reads(read: dict[str, str], names: frozenset[str]) -> list[str]:
 
 def _stores(kept: dict[str, str], definitions: list[Assignment], function: RolloutFunction) -> list[str]:
     return [
-        f"{function.at(kept[name])} = {function.stored(name_text(name), kind).source}"
+        f"{function.at(kept[name])} = {function.as_stored(name_text(name), kind).source}"
         for name, _, kind, _ in definitions
         if name in kept
     ]
@@ -107,8 +107,8 @@ def _cut(statements: Sequence[Statement], robots_seen: set[str]) -> list[list[St
         part, sees = parts[-1], statement.uses & robots_seen
         was_expensive = bool(part) and part[-1].is_expensive
         turns = statement.starts_phase or statement.is_expensive != was_expensive
-        turns = turns and len(part) >= (1 if was_expensive else SHORTEST)
-        crowded, long = len(seen | sees) > MOST_SEEN, len(part) >= LONGEST
+        turns = turns and len(part) >= (1 if was_expensive else SHORTEST_LOOP)
+        crowded, long = len(seen | sees) > MOST_SEEN, len(part) >= LONGEST_LOOP
         if (crowded or long or turns) and not all(isinstance(before, Comment) for before in part):
             parts.append([])
             seen.clear()

@@ -225,11 +225,11 @@ def test_elements_of_the_constants_are_read_from_each_robot_s_base(function, rob
 def test_what_a_slot_holds_now_crosses_to_where_it_is_stored(function, robots):
     emitter = emitter_of(function, [], hinted=False)
     now, later = emitter.blocks.stage(1), emitter.blocks.stage(3)
-    assert emitter.copied(slot(robots, "x"), "next_y", now, later).source == "next_y"
+    assert emitter.copy(slot(robots, "x"), "next_y", now, later).source == "next_y"
     assert now.lines == ["next_y = x[own + lane]"]
     assert now.kept == {"next_y": "next_y_kept"}
     assert later.read == {"next_y": "next_y_kept[own + lane]"}
-    assert emitter.copied(slot(robots, "x"), "next_z", now, now).source == "next_z"
+    assert emitter.copy(slot(robots, "x"), "next_z", now, now).source == "next_z"
     assert "next_z" not in now.kept
 
 
