@@ -173,9 +173,9 @@ def _not_listed(name: str, names: Names) -> tuple[str, Span, str]:
         kind = "a definition" if name in names.definitions else "a constant"
         advice = "make a sensor of it, or write inputs as a mapping: a name, then the partition"
         return f"{name} is {kind}; inputs lists sensors, and truths of the robot's state", WHOLE, advice
-    known = [*environment.sensors, *environment.state]
+    candidates = [*environment.sensors, *environment.state]
     advice = "inputs lists sensors, and truths of the state; other partitions are a mapping: name, then what it cuts"
-    return f'"{name}" is neither sensor nor state{did_you_mean(name, known)}', WHOLE, advice
+    return f'"{name}" is neither sensor nor state{did_you_mean(name, candidates)}', WHOLE, advice
 
 
 def _inputs(

@@ -22,10 +22,10 @@ MAX_FRAMES = 600
 """Frames for a chain of names, of the 1000 that Python has."""
 
 
-def read_definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
+def read_definitions(expressions: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
     """Return each definition by its name; report a duplicate and keep the first."""
     definitions: dict[str, Definition] = {}
-    for key, expression in written.items():
+    for key, expression in expressions.items():
         path: Path = ("environment", "definitions", key)
         name, *parameters = signature(key)
         if name in definitions:

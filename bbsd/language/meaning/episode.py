@@ -146,8 +146,8 @@ def _starting_values(names: Names) -> Stored:
     def start(name: str, robot: int) -> Node:
         if (name, robot) not in starts:
             block, owner = ("world", names.team) if name in environment.world else ("state", robot)
-            here = scope.at(("environment", block, name), owner, draws=True)
-            starts[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, here)
+            inner = scope.at(("environment", block, name), owner, draws=True)
+            starts[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, inner)
         return starts[name, robot]
 
     bindings: dict[str, Binding] = {

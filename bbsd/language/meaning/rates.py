@@ -67,8 +67,8 @@ def evaluate_rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapp
     )
 
 
-def _node(written: Expression, scope: Scope, path: Path) -> Node:
-    return elaboration.number(written.tree, scope.at(path))
+def _node(rate: Expression, scope: Scope, path: Path) -> Node:
+    return elaboration.number(rate.tree, scope.at(path))
 
 
 def _probabilities(
