@@ -23,7 +23,7 @@ T = TypeVar("T")
 Data = TypeVar("Data", bound=NodeData)
 
 MAX_NODES = 100_000
-"""The most nodes of a spec's graph (docs/decisions/0002-graph.md)."""
+"""The most nodes of a spec's graph (decision 2, a graph of scalar values)."""
 MAX_WORK = 500_000
 """The most units of work: a node asked for, even one that exists, is one; `EXPRESSION_WORK` and others come on top."""
 

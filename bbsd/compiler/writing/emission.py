@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.compiler.passes.pairs import of_pairs
+from bbsd.compiler.passes.pairs import nodes_of_pairs
 from bbsd.compiler.writing.blocks import Blocks
 from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.precedence import (
@@ -145,7 +145,7 @@ class Emitter:
             return
         # Of what a loop over pairs computes, a value in another such loop is reached by no way but its array.
         of_this_loop = (
-            {inner.number for inner in of_pairs([node])} if into.level is Level.PAIR else set[int]()
+            {inner.number for inner in nodes_of_pairs([node])} if into.level is Level.PAIR else set[int]()
         )
         for operand in needed(node.operands):
             if operand.number in deep and (operand.number in of_this_loop or _is_reachable(operand, into)):

@@ -208,7 +208,7 @@ def test_draws_are_named_once_a_robot(function, robots):
     graph = robots.graph
     bounds = graph.number(0), slot(robots, "x")
     family = [graph.draw("uniform", word, bounds) for word in (1, 2, 3, 4)]
-    written = Written(function, robots.again(family, bounds), at=1)
+    written = Written(function, robots.copy(family, bounds), at=1)
     assert written.texts == ["uniform(key[lane], draw_1, 0.0, x[own + lane])"]
     assert written.blocks.robot(1).lines == ["draw_1 = fold(BY_ROBOT_1[robot], word_of(step))"]
     [words] = function.tables
@@ -218,7 +218,7 @@ def test_draws_are_named_once_a_robot(function, robots):
 def test_elements_of_the_constants_are_read_from_each_robot_s_base(function, robots):
     graph, x = robots.graph, slot(robots, "x")
     family = [graph.gather(base, (3,), (4,), (x,)) for base in (0, 12, 24, 36)]
-    written = Written(function, robots.again(family, (x,)), at=1)
+    written = Written(function, robots.copy(family, (x,)), at=1)
     assert written.texts == ["constants[BY_ROBOT_1[robot] + 3 * clamp_index(x[own + lane], 3)]"]
 
 
