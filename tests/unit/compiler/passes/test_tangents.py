@@ -195,7 +195,7 @@ def test_one_uncertain_comparison_among_many_lanes_in_one_of_several_threads(unc
     pools = (np.repeat(choices[:, np.newaxis], 2, axis=1), np.zeros((160, 1), np.uint8))
     members = np.stack([np.arange(160), np.arange(160)], axis=1)
     team = problem.assemble(pools, members, 1)
-    assert len(team._spans()) == 2
+    assert len(problem.kernels._spans(160)) == 2
     returns = team.episode(np.arange(160, dtype=np.uint64), np.tile([1, 0], (160, 1))).returns
     assert returns.tolist() == [0.0 if lane == uncertain_lane else 1500.0 for lane in range(160)]
     assert team._uncertain is (uncertain_lane is not None)
