@@ -9,7 +9,7 @@ from bbsd.expression.checks import has_arguments, require_kind, require_static_w
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import report_unseen
 from bbsd.expression.operations import BY_AGGREGATE
-from bbsd.expression.tree import Call, Each, Name
+from bbsd.expression.tree import Call, Generator, Name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -87,11 +87,11 @@ def _label_of_best(expr: Call, elements: Sequence[Element], nodes: Sequence[Node
 
 def _elements(expr: Call, scope: Scope, elaborate: Elaborate) -> list[Element] | None:
     match expr.arguments:
-        case (Each() as each,):
-            return _of_generator(each, scope, elaborate)
+        case (Generator() as generator,):
+            return _of_generator(generator, scope, elaborate)
         case (argument,):
             return _of_list(expr, argument, elaborate(argument, scope), scope)
-        case arguments if any(isinstance(argument, Each) for argument in arguments):
+        case arguments if any(isinstance(argument, Generator) for argument in arguments):
             scope.mistake("BB062", "a generator must be the only argument", expr.span)
             return None
     values = [(argument.span, elaborate(argument, scope)) for argument in expr.arguments]
@@ -108,48 +108,52 @@ def _of_list(expr: Call, argument: Expr, value: Value, scope: Scope) -> list[Ele
     return [Element(scope.graph.number(index), item, argument.span) for index, item in enumerate(items)]
 
 
-def _of_generator(each: Each, scope: Scope, elaborate: Elaborate) -> list[Element] | None:
+def _of_generator(generator: Generator, scope: Scope, elaborate: Elaborate) -> list[Element] | None:
     elements: list[Element] = []
-    items = _source(each, scope, elaborate)
+    items = _source(generator, scope, elaborate)
     scope.graph.spend(len(items or ()) * ELEMENT_WORK)
     for index, item in enumerate(items or ()):
-        names = _unpack(each, item, scope)
+        names = _unpack(generator, item, scope)
         if names is None:
             return None
         draws = scope.draws and replace(scope.draws, elements=(*scope.draws.elements, index))
-        value = elaborate(each.element, scope.inside(names, draws))
-        elements.append(Element(item, value, each.element.span))
+        value = elaborate(generator.element, scope.inside(names, draws))
+        elements.append(Element(item, value, generator.element.span))
     return None if items is None else elements
 
 
-def _unpack(each: Each, item: Value, scope: Scope) -> dict[str, Value] | None:
-    if len(each.names) == 1:
-        return {each.names[0]: item}
-    if isinstance(item, tuple) and len(item) == len(each.names):
-        return dict(zip(each.names, item, strict=True))
+def _unpack(generator: Generator, item: Value, scope: Scope) -> dict[str, Value] | None:
+    if len(generator.names) == 1:
+        return {generator.names[0]: item}
+    if isinstance(item, tuple) and len(item) == len(generator.names):
+        return dict(zip(generator.names, item, strict=True))
     if isinstance(item, tuple) or item.kind is not Kind.UNKNOWN:
         has = f"has {len(item)} numbers" if isinstance(item, tuple) else "is one value"
-        scope.mistake("BB062", f"{len(each.names)} names after for, but an element {has}", each.span)
+        scope.mistake(
+            "BB062", f"{len(generator.names)} names after for, but an element {has}", generator.span
+        )
     return None
 
 
-def _source(each: Each, scope: Scope, elaborate: Elaborate) -> Sequence[Value] | None:
-    match each.source:
+def _source(generator: Generator, scope: Scope, elaborate: Elaborate) -> Sequence[Value] | None:
+    match generator.source:
         case Name(name="team" | "others" as name) if scope.behavior:
-            report_unseen("the whole team" if name == "team" else "the other robots", each.source.span, scope)
+            report_unseen(
+                "the whole team" if name == "team" else "the other robots", generator.source.span, scope
+            )
             return None
         case Name(name="team"):
             return [scope.graph.number(robot) for robot in range(scope.robots)]
         case Name(name="others"):
-            return _others(each.source, scope)
+            return _others(generator.source, scope)
         case Call(function="range") as call:
             return _range(call, scope, elaborate)
-    items = elaborate(each.source, scope)
+    items = elaborate(generator.source, scope)
     if isinstance(items, tuple):
         return items
     if items.kind is not Kind.UNKNOWN:
         advice = "after in stands team, others, range(n) or a list"
-        scope.mistake("BB062", "this is one value and cannot be gone through", each.source.span, advice)
+        scope.mistake("BB062", "this is one value and cannot be gone through", generator.source.span, advice)
     return None
 
 

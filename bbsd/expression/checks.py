@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.expression.kinds import Kind
-from bbsd.expression.tree import Each
+from bbsd.expression.tree import Generator
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
@@ -41,7 +41,7 @@ def require_static_whole(value: Value, purpose: str, span: Span, scope: Scope) -
 
 def has_arguments(call: Call, wanted: int, scope: Scope) -> bool:
     """Return whether a call has as many arguments as are wanted and no generator; report it if not."""
-    if any(isinstance(argument, Each) for argument in call.arguments):
+    if any(isinstance(argument, Generator) for argument in call.arguments):
         scope.mistake("BB062", f"{call.function} takes no generator", call.span)
         return False
     if len(call.arguments) != wanted:

@@ -21,8 +21,8 @@ from bbsd.expression.tree import (
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -120,7 +120,7 @@ def _value(expr: Expr, scope: Scope) -> Value:
             return _call(expr, scope)
         case Index():
             return element(expr, scope, _value)
-        case Each():
+        case Generator():
             message = "a generator can only be the one argument of an aggregate"
             return scope.mistake("BB062", message, expr.span)
 

@@ -13,8 +13,8 @@ from bbsd.expression.tree import (
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -229,4 +229,4 @@ class _Builder:
         names = tuple(target.id for target in targets if isinstance(target, ast.Name) and _is_free(target.id))
         if len(names) != len(targets) or len(set(names)) != len(names):
             raise self.refuse(first.target, "BB062", "after for stand different names, like x or x, y")
-        return Each(self(node.elt, depth + 1), names, self(first.iter, depth + 1), self.span(node))
+        return Generator(self(node.elt, depth + 1), names, self(first.iter, depth + 1), self.span(node))

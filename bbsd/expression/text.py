@@ -7,8 +7,8 @@ from bbsd.expression.tree import (
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -87,6 +87,6 @@ def _render(expr: Expr) -> tuple[str, int]:
             return f"{function}({', '.join(_render(argument)[0] for argument in arguments)})", ATOM
         case Index(of=of, index=index):
             return f"{_at_least(of, ATOM)}[{_render(index)[0]}]", ATOM
-        case Each(element=element, names=names, source=source):
+        case Generator(element=element, names=names, source=source):
             text = f"{_at_least(element, 0)} for {', '.join(names)} in {_at_least(source, LEVELS['or'])}"
             return text, LEVELS["if"]

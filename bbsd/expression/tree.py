@@ -103,7 +103,7 @@ class Index:
 
 
 @dataclass(frozen=True, slots=True)
-class Each:
+class Generator:
     """`element for names in source`, the only argument of an aggregate."""
 
     element: Expr
@@ -112,7 +112,7 @@ class Each:
     span: Span
 
 
-Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Conditional | Call | Index | Each
+Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Conditional | Call | Index | Generator
 
 
 def parts(expr: Expr) -> tuple[Expr, ...]:
@@ -132,7 +132,7 @@ def parts(expr: Expr) -> tuple[Expr, ...]:
             return arguments
         case Index(of=of, index=index):
             return (of, index)
-        case Each(element=element, source=source):
+        case Generator(element=element, source=source):
             return (element, source)
 
 
@@ -143,7 +143,7 @@ def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[st
             return frozenset({name}) - hidden
         case Call(function=function, arguments=arguments):
             return (frozenset({function}) - hidden).union(*(names_used(part, hidden) for part in arguments))
-        case Each(element=element, names=names, source=source):
+        case Generator(element=element, names=names, source=source):
             return names_used(source, hidden) | names_used(element, hidden | frozenset(names))
         case _:
             return frozenset().union(*(names_used(part, hidden) for part in parts(expr)))
@@ -158,7 +158,7 @@ def stack_depth(expr: Expr) -> int:
             own = 7
         case Logical():
             own = 4
-        case Each():
+        case Generator():
             own = 0
         case _:
             own = 3

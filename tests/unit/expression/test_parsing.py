@@ -9,7 +9,7 @@ from bbsd.expression.tree import (
     Call,
     Comparison,
     Conditional,
-    Each,
+    Generator,
     Index,
     Logical,
     Name,
@@ -68,7 +68,7 @@ def test_conditionals_indices_and_generators() -> None:
     tree = parse("sum(a * x for x, y in table)")
     assert isinstance(tree, Call)
     (each,) = tree.arguments
-    assert isinstance(each, Each)
+    assert isinstance(each, Generator)
     assert each.names == ("x", "y")
 
 

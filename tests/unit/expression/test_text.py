@@ -12,8 +12,8 @@ from bbsd.expression.tree import (
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -53,7 +53,7 @@ def _larger(parts: st.SearchStrategy[Expr]) -> st.SearchStrategy[Expr]:
             )
         ),
         st.tuples(parts, parts).map(
-            lambda found: Call("sum", (Each(found[0], ("v", "w"), found[1], NOWHERE),), NOWHERE)
+            lambda found: Call("sum", (Generator(found[0], ("v", "w"), found[1], NOWHERE),), NOWHERE)
         ),
     )
 
