@@ -9,7 +9,7 @@ from bbsd.expression.checks import has_arguments, require_kind, require_static_w
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import report_unseen
 from bbsd.expression.operations import BY_AGGREGATE
-from bbsd.expression.tree import Call, Generator, Name
+from bbsd.expression.syntax.tree import Call, Generator, Name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.lookup import Elaborate
     from bbsd.expression.scope import Scope, Value
-    from bbsd.expression.tree import Expr, Span
+    from bbsd.expression.syntax.tree import Expr, Span
 
 MAX_ELEMENTS = 10_000
 """The most elements of a list, those of the lists in it included."""

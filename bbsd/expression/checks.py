@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.expression.kinds import Kind
-from bbsd.expression.tree import Generator
+from bbsd.expression.syntax.tree import Generator
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.scope import Scope, Value
-    from bbsd.expression.tree import Call, Span
+    from bbsd.expression.syntax.tree import Call, Span
 
 ADVICE = {Kind.TRUTH: "write the condition as: 1 if ... else 0", Kind.NUMBER: "compare it with something"}
 

@@ -16,7 +16,7 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
 from bbsd.expression.operations import BY_WORD
 from bbsd.expression.scope import Definition, Unusable
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bbsd.expression.kinds import Kind
-from bbsd.expression.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
+from bbsd.expression.syntax.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
 from bbsd.expression.vocabulary import FUNCTIONS
 
 AGGREGATES_OF_NUMBERS = ("sum", "mean", "argmin", "argmax")

@@ -23,8 +23,8 @@ from bbsd.expression.scope import (
     Unusable,
     Value,
 )
-from bbsd.expression.text import render
-from bbsd.expression.tree import Call, Expr, Index, Name, Number, Span, Unary
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import Call, Expr, Index, Name, Number, Span, Unary
 from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
 from bbsd.kernel.functions import clamp_index
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, Node, value_of
-from bbsd.expression.mistakes import WHOLE, Mistake, TooManyMistakesError
+from bbsd.expression.syntax.mistakes import WHOLE, Mistake, TooManyMistakesError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
-    from bbsd.expression.tree import Expr, Span
+    from bbsd.expression.syntax.tree import Expr, Span
 
 MAX_MISTAKES = 200
 

@@ -8,7 +8,7 @@ from functools import reduce
 from operator import add, and_, eq, ge, gt, le, lt, mul, ne, neg, not_, or_, pos, sub
 from typing import Any
 
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,

@@ -10,8 +10,8 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.forms import kind_by_form
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import KEY, WHOLE
-from bbsd.expression.tree import Name, Span
+from bbsd.expression.syntax.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.tree import Name, Span
 from bbsd.language.field_types import Expression
 from bbsd.language.meaning.partitions import (
     MAX_CELLS,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
-from bbsd.expression.tree import names_used, stack_depth
+from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.syntax.tree import names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
 from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
@@ -14,7 +14,7 @@ from bbsd.language.models import OTHERWISE, Spec
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from bbsd.expression.tree import Expr
+    from bbsd.expression.syntax.tree import Expr
 
 FRAMES_OF_A_NAME = 8
 """Frames of Python's stack from a name to the expression behind it."""

@@ -15,9 +15,9 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import KEY
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
+from bbsd.expression.syntax.mistakes import KEY
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import KEY
-from bbsd.expression.text import render
-from bbsd.expression.tree import Call, Name, Span
+from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import Call, Name, Span
 from bbsd.language.meaning.coverage import covers_everything
 from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText

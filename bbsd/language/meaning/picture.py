@@ -9,14 +9,14 @@ from bbsd.expression import elaboration
 from bbsd.expression.checks import require_kind
 from bbsd.expression.graph import Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import WHOLE
+from bbsd.expression.syntax.mistakes import WHOLE
 from bbsd.language.field_types import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
     from bbsd.expression.scope import Scope, Value
-    from bbsd.expression.tree import Span
+    from bbsd.expression.syntax.tree import Span
     from bbsd.language.field_types import Nested
     from bbsd.language.meaning.moments import Moment
     from bbsd.language.view import View

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bbsd.expression.tree import Span
+from bbsd.expression.syntax.tree import Span
 
 WHOLE = Span(0, 0)
 """The span of a whole value, however it is written."""

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.expression.parsing import MAX_DEPTH, parse
-from bbsd.expression.text import number_text, render
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.parsing import MAX_DEPTH, parse
+from bbsd.expression.syntax.text import number_text, render
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.expression.unreadable import find_culprit
+from bbsd.expression.syntax.unreadable import find_culprit
 
 
 @pytest.mark.parametrize(

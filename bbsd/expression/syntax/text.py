@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,

@@ -3,8 +3,8 @@ import sys
 import pytest
 
 from bbsd.expression import elaboration
-from bbsd.expression.parsing import parse
-from bbsd.expression.tree import names_used, parts, stack_depth
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.tree import names_used, parts, stack_depth
 from tests.unit.expression.scopes import scope
 
 

@@ -7,8 +7,8 @@ import math
 import re
 import warnings
 
-from bbsd.expression.mistakes import ExpressionError, Mistake
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
@@ -23,7 +23,7 @@ from bbsd.expression.tree import (
     Truth,
     Unary,
 )
-from bbsd.expression.unreadable import EQUALITY, find_culprit
+from bbsd.expression.syntax.unreadable import EQUALITY, find_culprit
 from bbsd.expression.vocabulary import RESERVED
 
 MAX_LENGTH = 4000

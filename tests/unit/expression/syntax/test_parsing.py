@@ -2,9 +2,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.expression.mistakes import ExpressionError, Mistake
-from bbsd.expression.parsing import MAX_DEPTH, MAX_LENGTH, parse
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
+from bbsd.expression.syntax.parsing import MAX_DEPTH, MAX_LENGTH, parse
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
