@@ -285,6 +285,7 @@ def test_families_that_need_one_another_are_told(graph):
     assert each(b).operation == "+"
 
 
+@pytest.mark.slow
 def test_deep_families_are_made_without_recursion(graph):
     nodes = slots(graph, "x")
     for _ in range(20_000):

@@ -90,6 +90,7 @@ COMPARED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robots", [1, 2, 5])
 @pytest.mark.parametrize("how", COMPARED)
 def test_comparisons_need_no_arctangent_and_change_no_bit(how, robots):
@@ -100,6 +101,7 @@ def test_comparisons_need_no_arctangent_and_change_no_bit(how, robots):
     assert not uncertain
 
 
+@pytest.mark.slow
 def test_lifting_computes_no_arctangent_in_its_steps_and_changes_no_bit():
     problem = problem_of(shipped("object_lifting"), lanes=16, compiled=True)
     assert arctangents_of_a_step(problem) == 0
@@ -267,6 +269,7 @@ def test_comparisons_at_the_start_are_made_with_arctangents(robots):
         assert swift == detailed
 
 
+@pytest.mark.slow
 def test_thousands_of_comparisons_do_not_nest():
     problem = swaying(robots=1, y="y / 2", reward="sum(1 if atan(x * k) > 0.1 else 0 for k in range(4000))")
     assert (

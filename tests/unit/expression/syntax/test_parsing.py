@@ -25,6 +25,7 @@ def refused(text: str) -> Mistake:
     return caught.value.mistake
 
 
+@pytest.mark.slow
 @given(st.one_of(st.text(), st.text("abx01 .()[]+-*/%<>=!&|^~,:'\"#\\{}@;ifornot\n\t", max_size=40)))
 def test_any_text_is_read_or_refused(text: str) -> None:
     try:
