@@ -6,12 +6,19 @@ BIN := $(VENV)/bin
 # The peers have one of their own: numba would import what they need in every process that is measured.
 PEERS := .venv-peers
 
-.PHONY: demo test lint unit claims worlds arms fuzz figures bench clean
+.PHONY: demo test quick lint unit claims worlds arms fuzz figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
 
 test: lint unit
+
+# For every save: the slowest tests are printed, so that a new slow one is seen and marked.
+quick: $(VENV)/.test
+	$(BIN)/ruff check --quiet .
+	$(BIN)/lint-imports --no-cache > .cache/imports.txt || (cat .cache/imports.txt; exit 1)
+	$(BIN)/pytest -q -n 2 --dist worksteal -m "not slow" --ignore tests/end_to_end \
+	  --hypothesis-profile quick --durations 5 --durations-min 1
 
 lint: $(VENV)/.test
 	$(BIN)/ruff check .

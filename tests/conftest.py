@@ -14,6 +14,7 @@ os.environ.setdefault("BBSD_CACHE_DIR", str(Path(__file__).parents[1] / ".cache"
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile("untimed", deadline=None)  # machines differ, and a first call may compile
+settings.register_profile("quick", deadline=None, max_examples=20)
 settings.load_profile("untimed")
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
 from bbsd.expression.reconstruction import reconstruct
-from bbsd.expression.text import render
-from bbsd.expression.tree import Call, Expr, parts
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import Call, Expr, parts
 from bbsd.expression.vocabulary import DRAWS
 from bbsd.language.field_types import expressions_in
 

@@ -33,13 +33,13 @@ class Problem:
     meaning: Meaning
     tables: tuple[TableShape, ...]
     layers: Integers
-    """Lowest first: a behavior where given, -1 where open."""
+    """The layers, lowest first: a behavior where given, -1 where open."""
     candidates: Integers
     """Behaviors that may fill the open layers."""
     lanes: int
     compiled: bool
     jobs: int = 1
-    """Threads that share the lanes; what comes out is the same for any number."""
+    """Threads that share the lanes; the outcome is the same for any number."""
 
     @property
     def n_behaviors(self) -> int:

@@ -58,7 +58,10 @@ class TableShape:
 
 
 def shape_of(behavior: Module, *, left_out: bool = False) -> TableShape:
-    """The layout of a behavior's table. What a given structure leaves out is no hole: its open cells do nothing."""
+    """Return the layout of a behavior's table.
+
+    Open cells of a behavior that a given structure leaves out are no holes: they do nothing.
+    """
     given = np.frombuffer(behavior.table.given, np.uint8)
     if left_out:
         given = np.where(given == OPEN_CELL, np.uint8(NO_ACTION), given)
@@ -66,7 +69,7 @@ def shape_of(behavior: Module, *, left_out: bool = False) -> TableShape:
 
 
 def packed_tables(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> npt.NDArray[np.int64]:
-    """Each individual of the packed behaviors as one word, (n_behaviors, largest pool)."""
+    """Return each individual of the packed behaviors as one word: (n_behaviors, largest pool)."""
     words = np.zeros((len(pools), max(len(pool) for pool in pools)), np.int64)
     for index, (shape, pool) in enumerate(zip(shapes, pools, strict=True)):
         if shape.packed:
@@ -79,7 +82,7 @@ def packed_tables(shapes: Sequence[TableShape], pools: Sequence[Pool]) -> npt.ND
 def unpacked_tables(
     shapes: Sequence[TableShape], pools: Sequence[Pool]
 ) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.int64]]:
-    """The cells of all behaviors that are not packed, one after the other, and where each behavior's begin."""
+    """Return the cells of all behaviors that are not packed, one after the other, and each behavior's offset."""
     parts = [
         np.zeros(0, np.uint8) if shape.packed else pool.ravel()
         for shape, pool in zip(shapes, pools, strict=True)

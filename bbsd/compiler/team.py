@@ -25,9 +25,9 @@ Keys = npt.NDArray[np.uint64]
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """An episode of every agent: returns (n_agents,).
+    """An episode of every agent.
 
-    And credit (n_agents, n_behaviors + 1), the last column nobody's.
+    returns (n_agents,), and credit (n_agents, n_behaviors + 1), the last column nobody's.
     """
 
     returns: Floats
@@ -141,7 +141,7 @@ class Team:
         )
 
     def _set_priorities(self, structures: Integers) -> None:
-        """Higher layers bid higher; what is added makes of a choice the action's number over all behaviors."""
+        """Set what behaviors bid: the layer, and what turns a choice into the action's number over all behaviors."""
         self._priorities[:] = NEVER
         layers = np.arange(1, structures.shape[1] + 1)[:, np.newaxis] << ACTION_BITS
         behaviors = structures.T

@@ -1,47 +1,47 @@
-"""What a value and the arguments of a call must be; whatever they are not is told of once."""
+"""Checks of values and of the arguments of calls, which report what does not fit."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from bbsd.expression.kinds import Kind
-from bbsd.expression.tree import Each
+from bbsd.expression.syntax.tree import Generator
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.scope import Scope, Value
-    from bbsd.expression.tree import Call, Span
+    from bbsd.expression.syntax.tree import Call, Span
 
 ADVICE = {Kind.TRUTH: "write the condition as: 1 if ... else 0", Kind.NUMBER: "compare it with something"}
 
 
-def of_kind(found: Value, kind: Kind, span: Span, scope: Scope) -> Node:
-    """The value as one of that kind; anything else but what was not understood is a mistake."""
-    if isinstance(found, tuple):
+def require_kind(value: Value, kind: Kind, span: Span, scope: Scope) -> Node:
+    """Return a value of a kind, or the unknown one; report any other value and return the unknown one."""
+    if isinstance(value, tuple):
         advice = "take an element or an aggregate of it"
         return scope.mistake("BB056", f"a list, where {kind.value} is needed", span, advice)
-    if found.kind not in (kind, Kind.UNKNOWN):
-        message = f"{found.kind.value}, where {kind.value} is needed"
-        return scope.mistake("BB055", message, span, ADVICE.get(found.kind, ""))
-    return found
+    if value.kind not in (kind, Kind.UNKNOWN):
+        message = f"{value.kind.value}, where {kind.value} is needed"
+        return scope.mistake("BB055", message, span, ADVICE.get(value.kind, ""))
+    return value
 
 
-def known_whole(found: Value, purpose: str, span: Span, scope: Scope) -> int | None:
-    """The value as a whole number that is the same for the whole run; None after a mistake."""
-    node = of_kind(found, Kind.NUMBER, span, scope)
+def require_static_whole(value: Value, purpose: str, span: Span, scope: Scope) -> int | None:
+    """Return a value as a whole number that is the same for the whole run; report any other value and return None."""
+    node = require_kind(value, Kind.NUMBER, span, scope)
     if node.kind is Kind.UNKNOWN:
         return None
-    known = scope.known(node)
-    if known is None or not known.is_integer():
+    number = scope.static_value(node)
+    if number is None or not number.is_integer():
         message = f"{purpose} must be a whole number that is the same for the whole run"
         scope.mistake("BB064", message, span)
         return None
-    return int(known)
+    return int(number)
 
 
 def has_arguments(call: Call, wanted: int, scope: Scope) -> bool:
-    """Whether a call has as many arguments as are wanted, none of them a generator."""
-    if any(isinstance(argument, Each) for argument in call.arguments):
+    """Return whether a call has as many arguments as are wanted and no generator; report it if not."""
+    if any(isinstance(argument, Generator) for argument in call.arguments):
         scope.mistake("BB062", f"{call.function} takes no generator", call.span)
         return False
     if len(call.arguments) != wanted:

@@ -1,7 +1,7 @@
 """Tree to graph: one expression, for one robot, in one scope.
 
-All mistakes that can be told apart are found together: what could not be understood is unknown from then on,
-and nothing is said about it again.
+All independent mistakes are found at once: what could not be understood is unknown from then on, and nothing more is
+reported of it.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.aggregates import aggregate
-from bbsd.expression.checks import has_arguments, known_whole, of_kind
+from bbsd.expression.checks import has_arguments, require_kind, require_static_whole
 from bbsd.expression.kinds import Kind
-from bbsd.expression.lookup import call_definition, index, name_value
+from bbsd.expression.lookup import call_definition, element, name_value
 from bbsd.expression.operations import BY_WORD
 from bbsd.expression.scope import Definition, Unusable
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -40,52 +40,53 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Draws, Scope, Value
 
 MAX_WHOLE_POWER = 64
+"""The largest constant exponent whose power is computed by multiplications."""
 EXPRESSION_WORK = 5
-"""The work of beginning an expression for a robot, beside that of its nodes."""
+"""The work of starting an expression for a robot, beside that of its nodes."""
 
 COMPARISON_WORK = 5
 """The work of a comparison, beside that of its nodes: long conditions repeat few nodes often."""
 
 
 def number(expr: Expr, scope: Scope) -> Node:
-    """The expression as a number; anything else is a mistake."""
-    return of_kind(value(expr, scope), Kind.NUMBER, expr.span, scope)
+    """Elaborate an expression that must be a number."""
+    return require_kind(value(expr, scope), Kind.NUMBER, expr.span, scope)
 
 
 def truth(expr: Expr, scope: Scope) -> Node:
-    """The expression as a truth; anything else is a mistake."""
-    return of_kind(value(expr, scope), Kind.TRUTH, expr.span, scope)
+    """Elaborate an expression that must be a truth."""
+    return require_kind(value(expr, scope), Kind.TRUTH, expr.span, scope)
 
 
 def scalar(expr: Expr, scope: Scope) -> Node:
-    """The expression as a number or a truth; a list is a mistake."""
-    found = value(expr, scope)
-    if isinstance(found, tuple):
+    """Elaborate an expression that must be a number or a truth, not a list."""
+    result = value(expr, scope)
+    if isinstance(result, tuple):
         advice = "take an element or an aggregate of it"
         return scope.mistake("BB056", "a list, where one value is needed", expr.span, advice)
-    return found
+    return result
 
 
 def value(expr: Expr, scope: Scope) -> Value:
-    """The expression as whatever it is: a number, a truth or a list."""
+    """Elaborate an expression that may be a number, a truth or a list."""
     scope.findings.entered = (scope.path, expr.span)
     scope.graph.spend(EXPRESSION_WORK)
-    return _value(expr, _with_draws_numbered(expr, scope))
+    return _value(expr, _number_draws(expr, scope))
 
 
 def whole(expr: Expr, scope: Scope, purpose: str) -> Node:
-    """The expression as a number that must turn out to be whole."""
-    found = number(expr, scope)
-    scope.findings.wholes.append((scope.path, expr.span, purpose, found))
-    return found
+    """Elaborate an expression that must be a number; that it is whole must be proven later."""
+    node = number(expr, scope)
+    scope.findings.wholes.append((scope.path, expr.span, purpose, node))
+    return node
 
 
 def static_whole(expr: Expr, scope: Scope, purpose: str) -> int | None:
-    """The expression as a whole number that is the same for the whole run, or None after a mistake."""
-    return known_whole(value(expr, scope), purpose, expr.span, scope)
+    """Elaborate an expression that must be a whole number, the same for the whole run; None after a mistake."""
+    return require_static_whole(value(expr, scope), purpose, expr.span, scope)
 
 
-def _with_draws_numbered(expr: Expr, scope: Scope) -> Scope:
+def _number_draws(expr: Expr, scope: Scope) -> Scope:
     if scope.draws is None:
         return scope
     ordinals = {call.span: ordinal for ordinal, call in enumerate(_draws_in(expr))}
@@ -118,14 +119,14 @@ def _value(expr: Expr, scope: Scope) -> Value:
         case Call():
             return _call(expr, scope)
         case Index():
-            return index(expr, scope, _value)
-        case Each():
+            return element(expr, scope, _value)
+        case Generator():
             message = "a generator can only be the one argument of an aggregate"
             return scope.mistake("BB062", message, expr.span)
 
 
 def _of_kind(expr: Expr, kind: Kind, scope: Scope) -> Node:
-    return of_kind(_value(expr, scope), kind, expr.span, scope)
+    return require_kind(_value(expr, scope), kind, expr.span, scope)
 
 
 def _literal(expr: Number | Truth, scope: Scope) -> Node:
@@ -151,10 +152,10 @@ def _power(expr: Binary, scope: Scope) -> Node:
     exponent = _of_kind(expr.right, Kind.NUMBER, scope)
     if Kind.UNKNOWN in (base.kind, exponent.kind):
         return scope.graph.unknown
-    known = scope.known(exponent)
-    if known is not None and known.is_integer() and abs(known) <= MAX_WHOLE_POWER:
-        return scope.graph.apply("whole_power", base, data=int(known))
-    if known is None and scope.known(base) is None:
+    constant = scope.static_value(exponent)
+    if constant is not None and constant.is_integer() and abs(constant) <= MAX_WHOLE_POWER:
+        return scope.graph.apply("whole_power", base, data=int(constant))
+    if constant is None and scope.static_value(base) is None:
         message = "a power of a changing number needs a constant exponent"
         return scope.mistake("BB061", message, expr.right.span, "write exp(y * log(x))")
     return scope.graph.apply("power", base, exponent)
@@ -169,11 +170,11 @@ def _comparison(expr: Comparison, scope: Scope) -> Node:
     scope.graph.spend(COMPARISON_WORK)
     nodes: list[Node] = []
     for operand in expr.operands:
-        found = _value(operand, scope)
-        if isinstance(found, tuple):
+        node = _value(operand, scope)
+        if isinstance(node, tuple):
             advice = "compare elements, or use any(...) or all(...)"
             return scope.mistake("BB056", "lists cannot be compared", operand.span, advice)
-        nodes.append(found)
+        nodes.append(node)
     kinds = {node.kind for node in nodes} - {Kind.UNKNOWN}
     if len(kinds) > 1:
         return scope.mistake("BB055", "a truth is compared with a number", expr.span)
@@ -187,11 +188,11 @@ def _conditional(expr: Conditional, scope: Scope) -> Node:
     condition = _of_kind(expr.condition, Kind.TRUTH, scope)
     arms: list[Node] = []
     for arm in (expr.then, expr.otherwise):
-        found = _value(arm, scope)
-        if isinstance(found, tuple):
+        node = _value(arm, scope)
+        if isinstance(node, tuple):
             message = "a conditional chooses between single values, not lists"
             return scope.mistake("BB056", message, arm.span)
-        arms.append(found)
+        arms.append(node)
     then, otherwise = arms
     if len({then.kind, otherwise.kind} - {Kind.UNKNOWN}) > 1:
         message = f"one arm is {then.kind.value}, the other {otherwise.kind.value}"
@@ -226,13 +227,13 @@ def _uncallable(expr: Call, scope: Scope) -> Node:
         return scope.mistake("BB053", f"{name} can only stand after in", expr.span)
     if binding is not None or name in scope.local:
         return scope.mistake("BB053", f"{name} is not a function", expr.span)
-    definitions = [key for key, found in scope.names.items() if isinstance(found, Definition)]
+    definitions = [key for key, bound in scope.names.items() if isinstance(bound, Definition)]
     hint = did_you_mean(name, [*FUNCTIONS, *AGGREGATES, *DRAWS, "before", *definitions])
     return scope.mistake("BB053", f'unknown function "{name}"{hint}', Span(expr.span.start, len(name)))
 
 
 def _numbers(expr: Call, wanted: int, scope: Scope) -> list[Node]:
-    """The arguments as numbers; all unknown if there are more or fewer than are wanted."""
+    """Return the arguments as numbers; all unknown if there are more or fewer than are wanted."""
     if not has_arguments(expr, wanted, scope):
         return [scope.graph.unknown] * wanted
     return [_of_kind(argument, Kind.NUMBER, scope) for argument in expr.arguments]
@@ -250,8 +251,8 @@ def _before(expr: Call, scope: Scope) -> Value:
         return scope.mistake("BB065", message, expr.span)
     if not has_arguments(expr, 1, scope):
         return scope.graph.unknown
-    then = replace(earlier, path=scope.path, robot=scope.robot, local=scope.local, draws=None)
-    return _value(expr.arguments[0], then)
+    then_scope = replace(earlier, path=scope.path, robot=scope.robot, local=scope.local, draws=None)
+    return _value(expr.arguments[0], then_scope)
 
 
 def _draw(expr: Call, scope: Scope) -> Node:
@@ -261,12 +262,12 @@ def _draw(expr: Call, scope: Scope) -> Node:
     operands = _numbers(expr, DRAWS[expr.function][0], scope)
     if any(node.kind is Kind.UNKNOWN for node in operands):
         return scope.graph.unknown
-    word = _place_word(scope.draws, expr.span, scope.robot or 0)
+    word = _word_of_draw(scope.draws, expr.span, scope.robot or 0)
     return scope.graph.draw(expr.function, word, tuple(operands))
 
 
-def _place_word(draws: Draws, span: Span, robot: int) -> int:
-    """The name of a draw: its place in the spec, the robot, the elements of the generators around it."""
+def _word_of_draw(draws: Draws, span: Span, robot: int) -> int:
+    """Return the word of a draw, made of its place in the spec, the robot, and the elements of generators around it."""
     word = name_word(f"{draws.place}#{draws.ordinals[span]}")
     for part in (robot, *draws.elements):
         word = fold(word, word_of(part))

@@ -1,9 +1,9 @@
-"""What an expression is by its form alone, whatever its parts are."""
+"""The kind of an expression, as far as its outermost operation tells."""
 
 from __future__ import annotations
 
 from bbsd.expression.kinds import Kind
-from bbsd.expression.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
+from bbsd.expression.syntax.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
 from bbsd.expression.vocabulary import FUNCTIONS
 
 AGGREGATES_OF_NUMBERS = ("sum", "mean", "argmin", "argmax")
@@ -11,7 +11,7 @@ AGGREGATES_OF_TRUTHS = ("any", "all")
 
 
 def kind_by_form(expr: Expr) -> Kind:
-    """Number or truth where that follows from the outermost operation; else unknown."""
+    """Return number or truth where the outermost operation tells, else unknown."""
     match expr:
         case Number() | Binary() | Unary(operator="-" | "+"):
             return Kind.NUMBER

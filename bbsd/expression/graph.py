@@ -23,15 +23,16 @@ T = TypeVar("T")
 Data = TypeVar("Data", bound=NodeData)
 
 MAX_NODES = 100_000
+"""The most nodes of a spec's graph (decision 2, a graph of scalar values)."""
 MAX_WORK = 500_000
-"""Nodes asked for, those that exist already counted again, with a surcharge for elements of generators."""
+"""The most units of work: a node asked for, even one that exists, is one; `EXPRESSION_WORK` and others come on top."""
 
 
 class Level(IntEnum):
     """How often a value changes: each level is computed outside the loops of the next.
 
-    The last three are met only where a kernel loops over robots (`compiler.families`): ROBOT changes from robot to
-    robot but not from lane to lane, EACH does both, PAIR also with the robot looked at.
+    The last three are only where a kernel loops over robots (`compiler.passes.families`): ROBOT changes from robot to
+    robot but not from lane to lane, EACH changes with both, PAIR also with the robot looked at.
     """
 
     CALL = 0
@@ -44,7 +45,7 @@ class Level(IntEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Node:
-    """One value, equal to no other node. `number` is their order of making, operands first."""
+    """One value, equal only to itself; the numbers of nodes follow their order of creation, operands first."""
 
     number: int
     operation: str
@@ -79,14 +80,18 @@ class Node:
         return self.holding(int)
 
     def read(self, constants: Sequence[T], indices: Sequence[float]) -> T:
-        """Return the constant or the element that the node is, of a sequence of all constants."""
+        """Return the value of a constant or a gather, given all constants. Raises TypeError for other nodes."""
         return constants[self.index] if self.operation == "constant" else self.gather.read(constants, indices)
 
     def holding(self, data_type: type[Data]) -> Data:
-        """Return the data. Raises TypeError where they are not of a type."""
+        """Return the data, narrowed to their type. Raises TypeError where they are of another one."""
         if not isinstance(self.data, data_type):
             raise TypeError(f"the data of {self.operation} are no {data_type.__name__}: {self.data!r}")
         return self.data
+
+
+LEAVES = frozenset({"slot", "constant", "step", "start", "draw", "gather", "choice"})
+"""Operations whose values come from outside the graph; draws and gathers also have operands."""
 
 
 class GraphTooLargeError(Exception):
@@ -95,25 +100,25 @@ class GraphTooLargeError(Exception):
 
 @dataclass(slots=True)
 class Graph:
-    """Makes nodes, each distinct one once."""
+    """The nodes of a spec, each distinct one once."""
 
     nodes: dict[tuple[Hashable, ...], Node] = field(default_factory=dict)
     work: int = 0
     first: int = 0
-    """What is added to the numbers of new nodes."""
+    """The number of the first node."""
     bounded: bool = True
-    """Whether making nodes is work that a spec must pay for; what the compiler makes of a priced graph is not."""
+    """Whether nodes and work are limited, as they are for a spec; not so for what the compiler makes of its graph."""
 
     def number(self, value: float) -> Node:
-        """A literal number. Zeros of both signs are different literals."""
+        """Return a literal number; zeros of both signs are different literals."""
         return self.make("literal", (), Literal(float(value), str(float(value))), Kind.NUMBER, Level.CALL)
 
     def truth(self, *, value: bool) -> Node:
-        """A literal truth."""
+        """Return a literal truth."""
         return self.make("literal", (), Literal(bool(value), "truth"), Kind.TRUTH, Level.CALL)
 
     def cell(self, value: int) -> Node:
-        """A literal cell index."""
+        """Return a literal cell index."""
         return self.make("literal", (), Literal(int(value), "cell"), Kind.CELL, Level.CALL)
 
     @property
@@ -122,21 +127,21 @@ class Graph:
         return self.make("unknown", (), None, Kind.UNKNOWN, Level.CALL)
 
     def leaf(self, operation: str, data: NodeData, kind: Kind, level: Level) -> Node:
-        """A value that comes from outside the graph: a slot that is read, a constant, the step."""
+        """Return a value that comes from outside the graph: a slot that is read, a constant, the step."""
         return self.make(operation, (), data, kind, level)
 
     def draw(self, distribution: str, word: int, operands: tuple[Node, ...]) -> Node:
-        """A draw; `word` names its place in the spec, robot and element, so no two are ever the same node."""
-        return self.make("draw", operands, Draw(distribution, word), kind_drawn(distribution), Level.LANE)
+        """Return a draw; `word` names its place in the spec, robot and element, so no two draws are the same node."""
+        return self.make("draw", operands, Draw(distribution, word), _kind_drawn(distribution), Level.LANE)
 
     def gather(
         self, base: int, strides: tuple[int, ...], lengths: tuple[int, ...], indices: tuple[Node, ...]
     ) -> Node:
-        """An element of the constants at `base + sum(stride * index)`, each index clamped to its length."""
+        """Return the constant at `base + sum(stride * index)`, each index clamped to its length."""
         return self.make("gather", indices, Gather(base, strides, lengths), Kind.NUMBER, _highest(indices))
 
     def copy(self, node: Node, operands: Sequence[Node]) -> Node:
-        """The operation of a node on new operands."""
+        """Return the operation of a node on new operands, of which literals are computed at once."""
         match node.data:
             case Draw(distribution, word):
                 return self.draw(distribution, word, tuple(operands))
@@ -147,7 +152,7 @@ class Graph:
         return self.make(node.operation, (), node.data, node.kind, node.level)
 
     def apply(self, operation: str, *operands: Node, data: NodeData = None) -> Node:
-        """An operation on nodes; carried out now if all operands are literals."""
+        """Return an operation on nodes, simplified; it is computed at once if all operands are literals."""
         if any(node.kind is Kind.UNKNOWN for node in operands):
             return self.unknown
         simpler = self._simplified(operation, operands)
@@ -159,18 +164,18 @@ class Graph:
         return self.make(operation, operands, data, kind, _highest(operands))
 
     def fold(self, operation: str, nodes: Iterable[Node]) -> Node:
-        """The nodes joined from left to right by a binary operation."""
-        first, *rest = nodes
+        """Join nodes from left to right by a binary operation."""
+        joined, *rest = nodes
         for node in rest:
-            first = self.apply(operation, first, node)
-        return first
+            joined = self.apply(operation, joined, node)
+        return joined
 
     def fork(self) -> Graph:
-        """A graph that begins with the same nodes: what is made in it is not in this one, and numbered apart."""
+        """Return a graph that begins with the same nodes; new nodes of the two have different numbers."""
         return Graph(dict(self.nodes), self.work, self.first + MAX_NODES)
 
     def spend(self, work: int) -> None:
-        """Count the work of making the graph; raises GraphTooLargeError where it is too much."""
+        """Count work. Raises GraphTooLargeError where the graph is bounded and its work or nodes are too many."""
         self.work += work
         if self.bounded and (self.work > MAX_WORK or len(self.nodes) >= MAX_NODES):
             raise GraphTooLargeError
@@ -185,8 +190,8 @@ class Graph:
             case "select", (_, then, otherwise) if then is otherwise:
                 return then
             case "&" | "|", (left, right) if left.literal or right.literal:
-                known, other = (left, right) if left.literal else (right, left)
-                return other if bool(value_of(known)) == (operation == "&") else known
+                literal, other = (left, right) if left.literal else (right, left)
+                return other if bool(value_of(literal)) == (operation == "&") else literal
         return None
 
     def _literal(self, value: float | bool, kind: Kind) -> Node:
@@ -201,7 +206,7 @@ class Graph:
     def make(
         self, operation: str, operands: tuple[Node, ...], data: NodeData, kind: Kind, level: Level
     ) -> Node:
-        """The one node of that meaning."""
+        """Return the node of an operation, operands and data: the existing one, or a new one."""
         key = (operation, kind, data, *(node.number for node in operands))
         self.spend(1)
         if key not in self.nodes:
@@ -210,7 +215,7 @@ class Graph:
 
 
 def _exact_reciprocal(divisor: float) -> float | None:
-    """The reciprocal of a power of two, by which multiplying gives the same bits; None for any other number."""
+    """Return the reciprocal of a power of two, by which multiplying gives the same bits; None for other numbers."""
     fraction, exponent = frexp(divisor)
     return 1.0 / divisor if abs(fraction) == 0.5 and abs(exponent) < 1000 else None
 
@@ -225,8 +230,7 @@ def _highest(nodes: tuple[Node, ...]) -> Level:
     return Level.EACH if {Level.LANE, Level.ROBOT} <= levels else max(levels, default=Level.CALL)
 
 
-def kind_drawn(distribution: str) -> Kind:
-    """What a draw is: a truth for `chance`, a number for the others."""
+def _kind_drawn(distribution: str) -> Kind:
     return Kind.TRUTH if distribution == "chance" else Kind.NUMBER
 
 
@@ -242,19 +246,19 @@ def compute(operation: str, operands: Sequence[Any], data: NodeData = None) -> A
 
 
 def needed(outputs: Iterable[Node]) -> list[Node]:
-    """All nodes that the outputs depend on, and they themselves, operands first."""
-    found: dict[int, Node] = {}
+    """Return the outputs and all nodes that they depend on, operands first."""
+    nodes: dict[int, Node] = {}
     waiting = list(outputs)
     while waiting:
         node = waiting.pop()
-        if node.number not in found:
-            found[node.number] = node
+        if node.number not in nodes:
+            nodes[node.number] = node
             waiting.extend(node.operands)
-    return [found[number] for number in sorted(found)]
+    return [nodes[number] for number in sorted(nodes)]
 
 
 def evaluate(outputs: Iterable[Node], leaf: Callable[[Node, list[Any]], Any]) -> list[Any]:
-    """The values of nodes; `leaf` gives those of leaves and draws (with the values of a draw's operands)."""
+    """Return the values of nodes; `leaf` gives the values of leaves, from those of their operands if they have any."""
     outputs = list(outputs)
     values: dict[int, Any] = {}
     for node in needed(outputs):
@@ -269,26 +273,23 @@ def evaluate(outputs: Iterable[Node], leaf: Callable[[Node, list[Any]], Any]) ->
 
 
 def replace_leaves(output: Node, graph: Graph, leaf: Callable[[Node, list[Node]], Node]) -> Node:
-    """The same value with every leaf (and draw, with its replace_leaves operands) replaced by what `leaf` gives."""
-    found: dict[int, Node] = {}
+    """Return a value with every leaf replaced by what `leaf` gives for it and its operands, themselves replaced."""
+    new: dict[int, Node] = {}
     for node in needed([output]):
-        operands = [found[operand.number] for operand in node.operands]
+        operands = [new[operand.number] for operand in node.operands]
         if node.literal or node.kind is Kind.UNKNOWN:
-            found[node.number] = node
+            new[node.number] = node
         elif node.operation in LEAVES:
-            found[node.number] = leaf(node, operands)
+            new[node.number] = leaf(node, operands)
         else:
-            found[node.number] = graph.apply(node.operation, *operands, data=node.data)
-    return found[output.number]
-
-
-LEAVES = frozenset({"slot", "constant", "step", "start", "draw", "gather", "choice"})
+            new[node.number] = graph.copy(node, operands)
+    return new[output.number]
 
 
 def whole_nodes(
     outputs: Iterable[Node], whole_slots: Mapping[Slot, bool], whole_constant: Callable[[int | Gather], bool]
 ) -> dict[int, bool]:
-    """For every node needed, whether it is certainly a whole number, given that for slots and constants."""
+    """Return for every node needed whether it is certainly a whole number, given the same for slots and constants."""
     whole: dict[int, bool] = {}
     for node in needed(outputs):
         operands = [whole[operand.number] for operand in node.operands]

@@ -1,4 +1,4 @@
-"""What a name, a call of a definition, and an index stand for in a scope."""
+"""The values of names, of calls of definitions, and of indexed expressions in a scope."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.checks import has_arguments, of_kind
+from bbsd.expression.checks import has_arguments, require_kind
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.picking import pick
@@ -23,32 +23,32 @@ from bbsd.expression.scope import (
     Unusable,
     Value,
 )
-from bbsd.expression.text import render
-from bbsd.expression.tree import Call, Expr, Index, Name, Number, Span, Unary
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import Call, Expr, Index, Name, Number, Span, Unary
 from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
 from bbsd.kernel.functions import clamp_index
 
-LONGEST = 60
-"""Characters of an expression that an advice repeats."""
+LONGEST_REPEATED = 60
+"""The most characters of an expression that an advice repeats."""
 
 Elaborate: TypeAlias = Callable[[Expr, Scope], Value]
-"""What gives the value of any expression in a scope."""
+"""A function that returns the value of any expression in a scope."""
 
 
 def name_value(expr: Name, scope: Scope, elaborate: Elaborate) -> Value:
-    """The value that a name has in a scope, for its robot."""
+    """Return the value that a name has in a scope, for the scope's robot."""
     name = expr.name
     if name in scope.local:
         return scope.local[name]
     if name in CONSTANTS:
         return scope.graph.number(CONSTANTS[name])
     match scope.names.get(name):
-        case Shared(value=found):
-            return found
+        case Shared(value=value):
+            return value
         case Deferred(value=make):
             return make()
-        case PerRobot(value=of_robot) if scope.robot is not None:
-            return of_robot(scope.robot)
+        case PerRobot(value=value_for) if scope.robot is not None:
+            return value_for(scope.robot)
         case Definition(parameters=()) as definition:
             return _definition(expr, definition, (), scope, elaborate)
     return _without_value(expr, scope)
@@ -65,7 +65,7 @@ def _without_value(expr: Name, scope: Scope) -> Node:
             message = f"{name} needs arguments: {name}({', '.join(parameters)})"
             return scope.mistake("BB054", message, span)
         case Unseen():
-            return unseen(f"{name} of the world", span, scope, name)
+            return report_unseen(f"{name} of the world", span, scope, name)
         case Unusable(code=code, reason=reason, advice=advice):
             return scope.mistake(code, reason, span, advice) if reason else scope.graph.unknown
     if scope.findings.is_first((scope.path, span)):
@@ -81,18 +81,18 @@ def _unknown(name: str, scope: Scope) -> str:
     return f'unknown name "{name}"{did_you_mean(name, [*scope.local, *scope.names, *CONSTANTS])}'
 
 
-def unseen(what: str, span: Span, scope: Scope, expression: str = "", via: str = "") -> Node:
-    """Tell that a behavior cannot know what it uses, by a definition or itself; advise a sensor of an expression."""
+def report_unseen(what: str, span: Span, scope: Scope, expression: str = "", via: str = "") -> Node:
+    """Report that a behavior uses what it cannot know, perhaps `via` a definition; advise a sensor of `expression`."""
     scope.findings.unseen.append(what)
     used = f"{via}, which reads {what}" if via else what
     message = f"{scope.behavior} uses {used}; a behavior knows only its own robot's state and sensors"
     name = via or re.split(r"\W", expression)[0]
-    example = f", such as sensed_{name}: {expression}," if 0 < len(expression) <= LONGEST else ""
+    example = f", such as sensed_{name}: {expression}," if 0 < len(expression) <= LONGEST_REPEATED else ""
     return scope.mistake("BB066", message, span, f"make a sensor of it{example} and use that")
 
 
 def call_definition(expr: Call, definition: Definition, scope: Scope, elaborate: Elaborate) -> Value:
-    """The value of a definition with parameters for the arguments of a call."""
+    """Return the value of a definition with parameters for the arguments of a call."""
     if not definition.parameters:
         message = f"{expr.function} has no parameters; write it without parentheses"
         return scope.mistake("BB054", message, expr.span)
@@ -118,37 +118,39 @@ def _definition(
             scope.findings.wholes += findings.wholes
             scope.findings.mistakes.update(findings.mistakes)
     if key in scope.unseen:
-        return unseen(scope.unseen[key], use.span, scope, "" if scope.local else render(use), name)
+        return report_unseen(scope.unseen[key], use.span, scope, "" if scope.local else render(use), name)
     return scope.memo[key]
 
 
-def index(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
-    """The element of a list, or what one robot has."""
+def element(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
+    """Return the element of a list, or one robot's value."""
     if scope.behavior and (name := _name_of_robots(expr.of, scope, elaborate)):
-        return unseen(f"{name} of another robot", expr.of.span, scope, "" if scope.local else render(expr))
-    chosen = of_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
-    items = _robots_values(expr.of, chosen, scope, elaborate) or elaborate(expr.of, scope)
+        return report_unseen(
+            f"{name} of another robot", expr.of.span, scope, "" if scope.local else render(expr)
+        )
+    index = require_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
+    items = _values_of_robots(expr.of, index, scope, elaborate) or elaborate(expr.of, scope)
     if isinstance(items, Node):
         if items.kind is Kind.UNKNOWN:
             return items
         message = "only lists, and what each robot has, can be indexed"
         return scope.mistake("BB057", message, expr.of.span)
-    return chosen if chosen.kind is Kind.UNKNOWN else _element(items, chosen, expr.index, scope)
+    return index if index.kind is Kind.UNKNOWN else _pick(items, index, expr.index, scope)
 
 
-def _robots_values(of: Expr, chosen: Node, scope: Scope, elaborate: Elaborate) -> tuple[Value, ...] | None:
-    """The values of all robots, where `of` names one scalar for each of them, else None.
+def _values_of_robots(of: Expr, index: Node, scope: Scope, elaborate: Elaborate) -> tuple[Value, ...] | None:
+    """Return the values of all robots, where `of` names one scalar for each of them, else None.
 
-    Only the one chosen is elaborated where that is known; the others are unknown then.
+    If the index is known, only that robot's value is elaborated; the others are unknown.
     """
     if not isinstance(of, Name) or of.name in scope.local:
         return None
-    found = scope.names.get(of.name)
-    if not (isinstance(found, PerRobot) or (isinstance(found, Definition) and not found.parameters)):
+    binding = scope.names.get(of.name)
+    if not (isinstance(binding, PerRobot) or (isinstance(binding, Definition) and not binding.parameters)):
         return None
     values: list[Value] = [scope.graph.unknown] * scope.robots
     last = scope.robots - 1
-    for robot in [clamp_index(value_of(chosen), last)] if chosen.literal else range(scope.robots):
+    for robot in [clamp_index(value_of(index), last)] if index.literal else range(scope.robots):
         values[robot] = name_value(of, scope.of_robot(robot), elaborate)
         if isinstance(values[robot], tuple):
             return None
@@ -164,28 +166,28 @@ def _name_of_robots(of: Expr, scope: Scope, elaborate: Elaborate) -> str | None:
     return None if isinstance(name_value(of, scope, elaborate), tuple) else of.name
 
 
-def _element(items: tuple[Value, ...], chosen: Node, at: Expr, scope: Scope) -> Value:
+def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Value:
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
-    if _is_plain(at) and not 0 <= value_of(chosen) < len(items):
+    if _is_plain(at) and not 0 <= value_of(index) < len(items):
         message = (
-            f"there is no element {value_of(chosen):g}; the {len(items)} count from 0 to {len(items) - 1}"
+            f"there is no element {value_of(index):g}; the {len(items)} count from 0 to {len(items) - 1}"
         )
         return scope.mistake("BB057", message, at.span)
-    if not chosen.literal and len({_shape(item) for item in items}) > 1:
+    if not index.literal and len({_shape(item) for item in items}) > 1:
         if any(isinstance(item, Node) and item.kind is Kind.UNKNOWN for item in items):
             return scope.graph.unknown
         message = "rows of different lengths can only be indexed by a plain number"
         return scope.mistake("BB057", message, at.span)
-    scope.findings.wholes.append((scope.path, at.span, "an index", chosen))
-    return pick(items, chosen, scope.graph)
+    scope.findings.wholes.append((scope.path, at.span, "an index", index))
+    return pick(items, index, scope.graph)
 
 
 def _is_plain(at: Expr) -> bool:
-    """Whether an index is written as a number."""
+    """Return whether an index is written as a number."""
     return isinstance(at, Number) or (isinstance(at, Unary) and isinstance(at.operand, Number))
 
 
 def _shape(value: Value) -> tuple[object, ...] | None:
-    """What two lists have in common if they differ only in their numbers."""
+    """Return the shape of a value; lists that differ only in their numbers have the same."""
     return tuple(_shape(item) for item in value) if isinstance(value, tuple) else None

@@ -19,12 +19,12 @@ def pick(items: tuple[Value, ...], index: Node, graph: Graph) -> Value:
         return items[clamp_index(value_of(index), len(items) - 1)]
     nodes = [item for item in items if isinstance(item, Node)]
     if len(nodes) == len(items):
-        return _gathered(nodes, index, graph) or _chosen(nodes, index, graph)
+        return _gather(nodes, index, graph) or _choose(nodes, index, graph)
     rows = [item for item in items if isinstance(item, tuple)]
     return tuple(pick(column, index, graph) for column in zip(*rows, strict=True))
 
 
-def _gathered(nodes: list[Node], index: Node, graph: Graph) -> Node | None:
+def _gather(nodes: list[Node], index: Node, graph: Graph) -> Node | None:
     """Return one read of the constants, where the nodes stand there at equal distances; else None."""
     reads = [read for node in nodes if (read := _read(node)) is not None]
     if not 1 < len(nodes) == len(reads):
@@ -48,9 +48,9 @@ def _read(node: Node) -> tuple[Gather, tuple[Node, ...]] | None:
     return None
 
 
-def _chosen(nodes: list[Node], index: Node, graph: Graph) -> Node:
-    """A chain of choices; an index that is not a number gives the first element, as a clamped one does."""
-    found = nodes[0]
-    for place, node in enumerate(nodes[1:], start=1):
-        found = graph.apply("select", graph.apply(">=", index, graph.number(place)), node, found)
-    return found if found.kind is not Kind.UNKNOWN else graph.unknown
+def _choose(nodes: list[Node], index: Node, graph: Graph) -> Node:
+    """Return a chain of choices; an index that is NaN gives the first element, as a clamped one does."""
+    chosen = nodes[0]
+    for position, node in enumerate(nodes[1:], start=1):
+        chosen = graph.apply("select", graph.apply(">=", index, graph.number(position)), node, chosen)
+    return chosen if chosen.kind is not Kind.UNKNOWN else graph.unknown

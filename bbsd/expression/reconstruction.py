@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
 from bbsd.expression.operations import COMPARISONS, OPERATIONS
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,

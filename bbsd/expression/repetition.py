@@ -15,19 +15,19 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
 
 Step = tuple[Callable[..., Any], int, tuple[int, ...]]
-"""A function, where its value goes, and where its operands stand."""
+"""A function, the place of its value, and the places of its operands."""
 
 
-def values_for(node: Node, numbers: Iterable[float]) -> Iterator[Any]:
-    """The value of a node for each of the numbers that all of its leaves are; the same as `graph.evaluate` gives."""
-    nodes = needed([node])
-    place = {each.number: index for index, each in enumerate(nodes)}
-    values = [value_of(each) if each.literal else None for each in nodes]
-    leaves = [place[each.number] for each in nodes if each.operation in LEAVES]
+def values_for(output: Node, numbers: Iterable[float]) -> Iterator[Any]:
+    """Yield the value of an expression for each number, which all of its leaves have then, as `evaluate` would."""
+    nodes = needed([output])
+    places = {node.number: index for index, node in enumerate(nodes)}
+    values = [value_of(node) if node.literal else None for node in nodes]
+    leaves = [places[node.number] for node in nodes if node.operation in LEAVES]
     steps: list[Step] = [
-        (_function(each), place[each.number], tuple(place[operand.number] for operand in each.operands))
-        for each in nodes
-        if each.operands and each.operation not in LEAVES
+        (_function(node), places[node.number], tuple(places[operand.number] for operand in node.operands))
+        for node in nodes
+        if node.operands and node.operation not in LEAVES
     ]
     for number in numbers:
         for leaf in leaves:
@@ -42,5 +42,5 @@ def _function(node: Node) -> Callable[..., Any]:
     return function if node.data is None else partial(_with_data, function, node.data)
 
 
-def _with_data(function: Callable[..., Any], data: object, *operands: object) -> Any:  # noqa: ANN401 - as `value_of`
+def _with_data(function: Callable[..., Any], data: object, *operands: object) -> Any:  # noqa: ANN401 - a number or a truth
     return function(*operands, data)

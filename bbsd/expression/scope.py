@@ -1,4 +1,4 @@
-"""Where an expression stands: what names mean there, which robot it is for, and who hears of its mistakes."""
+"""The scope of an expression: what names mean in it, which robot it is for, and where mistakes are collected."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, Node, value_of
-from bbsd.expression.mistakes import WHOLE, Mistake, TooManyMistakesError
+from bbsd.expression.syntax.mistakes import WHOLE, Mistake, TooManyMistakesError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
-    from bbsd.expression.tree import Expr, Span
+    from bbsd.expression.syntax.tree import Expr, Span
 
 MAX_MISTAKES = 200
 
 Path = tuple[str | int, ...]
-"""Where something stands in a spec: keys and positions from the top."""
+"""The place of something in a spec: keys and positions from the top."""
 
 Value = Node | tuple["Value", ...]
 """A scalar, or a list of values."""
@@ -31,7 +31,7 @@ class Shared:
 
 @dataclass(frozen=True, slots=True)
 class Deferred:
-    """A shared name whose value is made when it is first used."""
+    """A shared name whose value is elaborated when it is first used."""
 
     value: Callable[[], Value]
 
@@ -54,7 +54,7 @@ class Definition:
 
 @dataclass(frozen=True, slots=True)
 class Unusable:
-    """A name that exists but means nothing here, and why; without a reason it was diagnosed already."""
+    """A name that exists but cannot be used here, and why; without a reason its mistake was reported before."""
 
     code: str = ""
     reason: str = ""
@@ -63,7 +63,7 @@ class Unusable:
 
 @dataclass(frozen=True, slots=True)
 class Unseen:
-    """A value of the world, where a behavior would use it: it must be sensed."""
+    """A value of the world, where a behavior would use it: it can only sense it."""
 
 
 Binding = Shared | Deferred | PerRobot | Definition | Unusable | Unseen
@@ -71,39 +71,39 @@ Binding = Shared | Deferred | PerRobot | Definition | Unusable | Unseen
 
 @dataclass(slots=True)
 class Findings:
-    """What came to light while expressions were elaborated."""
+    """Mistakes and open questions of expressions, collected while they are elaborated."""
 
     mistakes: dict[tuple[Path, Mistake], None] = field(default_factory=dict)
-    """In the order of finding, each once though most expressions are elaborated for many robots."""
+    """In order of discovery, each once though most expressions are elaborated for many robots."""
     wholes: list[tuple[Path, Span, str, Node]] = field(default_factory=list)
-    """Values that must turn out to be whole numbers, and what for."""
+    """Values that must be proven to be whole numbers, each with its place and purpose."""
     seen: set[tuple[Path, Span]] = field(default_factory=set)
-    """Unknown names that were told of: the next robot's need no search for a near name."""
+    """Unknown names that were reported: for the next robot no near name has to be searched."""
     entered: tuple[Path, Span] = ((), WHOLE)
-    """The expression that was begun last."""
+    """The expression that was started last."""
     unseen: list[str] = field(default_factory=list)
-    """What a behavior would need to know of the world and of other robots."""
+    """Values of the world and of other robots that a behavior uses and cannot know."""
 
     def report(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
-        """Add a mistake; raises TooManyMistakesError when no more are wanted."""
+        """Add a mistake. Raises TooManyMistakesError with the last of `MAX_MISTAKES`."""
         self.mistakes[path, Mistake(code, message, span, advice)] = None
         if len(self.mistakes) >= MAX_MISTAKES:
             raise TooManyMistakesError
 
-    def is_first(self, place: tuple[Path, Span]) -> bool:
-        """Whether an unknown name is met for the first time."""
-        first = place not in self.seen
-        self.seen.add(place)
+    def is_first(self, use: tuple[Path, Span]) -> bool:
+        """Return whether this is the first report of the use of an unknown name, and remember it."""
+        first = use not in self.seen
+        self.seen.add(use)
         return first
 
     def has_mistakes_below(self, path: Path) -> bool:
-        """Whether there is a mistake at a path or below it."""
-        return any(place[: len(path)] == path for place, _ in self.mistakes)
+        """Return whether there is a mistake at a path or below it."""
+        return any(where[: len(path)] == path for where, _ in self.mistakes)
 
 
 @dataclass(frozen=True, slots=True)
 class Draws:
-    """Names the draws of one expression: its place, the number of each draw in it, the elements around it."""
+    """What names the draws of an expression: its place, each draw's number in it, the elements of generators around."""
 
     place: str
     ordinals: Mapping[Span, int] = field(default_factory=dict)
@@ -119,50 +119,50 @@ class Scope:
     findings: Findings
     robots: int = 1
     robot: int | None = None
-    """None where the team is meant."""
+    """The robot that the expression is for; None for the team."""
     behavior: str = ""
-    """The behavior that this is for, if any, which knows only its own robot: what others do must be sensed."""
+    """The behavior that the expression belongs to, if any: it knows only its own robot, and must sense all else."""
     path: Path = ()
     local: Mapping[str, Value] = field(default_factory=dict)
     before: Scope | None = None
     """The scope of the decision, for `before(e)`."""
     starting: bool = False
-    """At the start of an episode, where `before(e)` is e."""
+    """Whether this is the start of an episode, where `before(e)` is e."""
     draws: Draws | None = None
-    """None where nothing may be drawn."""
+    """What names its draws; None where nothing may be drawn."""
     static: Callable[[Node], float | None] = lambda _: None
-    """The value of a constant node, where it is the same for the whole run."""
+    """The function that gives the value of a node if it is the same for the whole run, else None."""
     memo: dict[Hashable, Value] = field(default_factory=dict)
-    """Values of definitions in this phase."""
+    """Values of definitions at this moment."""
     unseen: dict[Hashable, str] = field(default_factory=dict)
-    """Of those, what the behavior would need to know that it does not."""
+    """For definitions that the behavior cannot know: the first value in them that it cannot know."""
 
     def at(self, path: Path, robot: int | None = None, *, draws: bool = False) -> Scope:
-        """The same names for another expression."""
-        place = Draws(".".join(str(part) for part in path)) if draws else None
-        return replace(self, path=path, robot=robot, draws=place, local={})
+        """Return the scope of another expression with the same names."""
+        named = Draws(".".join(str(part) for part in path)) if draws else None
+        return replace(self, path=path, robot=robot, draws=named, local={})
 
-    # The two that are made most often, by hand: `replace` takes three times as long.
+    # These two are called most often, so they do not use `replace`, which takes three times as long.
 
     def inside(self, names: Mapping[str, Value], draws: Draws | None) -> Scope:
-        """Where these names are known too, as in an element of a generator."""
+        """Return this scope with more names, as for an element of a generator."""
         return Scope(
             self.graph, self.names, self.findings, self.robots, self.robot, self.behavior, self.path,
             {**self.local, **names}, self.before, self.starting, draws, self.static, self.memo, self.unseen,
         )  # fmt: skip
 
     def of_robot(self, robot: int) -> Scope:
-        """The same place, seen by another robot."""
+        """Return this scope for another robot."""
         return Scope(
             self.graph, self.names, self.findings, self.robots, robot, self.behavior, self.path,
             self.local, self.before, self.starting, self.draws, self.static, self.memo, self.unseen,
         )  # fmt: skip
 
-    def known(self, node: Node) -> float | None:
-        """The value of a node, where it is the same for the whole run."""
+    def static_value(self, node: Node) -> float | None:
+        """Return the value of a node if it is the same for the whole run, else None."""
         return float(value_of(node)) if node.literal else self.static(node)
 
     def mistake(self, code: str, message: str, span: Span, advice: str = "") -> Node:
-        """Tell of a mistake; the value is unknown from then on."""
+        """Report a mistake and return the unknown value."""
         self.findings.report(self.path, code, message, span, advice)
         return self.graph.unknown

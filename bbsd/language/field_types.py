@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, GetPydanticSchema, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
 
-from bbsd.expression.mistakes import ExpressionError
-from bbsd.expression.parsing import NAME, parse
-from bbsd.expression.text import number_text
+from bbsd.expression.syntax.mistakes import ExpressionError
+from bbsd.expression.syntax.parsing import NAME, parse
+from bbsd.expression.syntax.text import number_text
 from bbsd.expression.vocabulary import RESERVED, UNREADABLE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bbsd.expression.tree import Expr
+    from bbsd.expression.syntax.tree import Expr
 
 GROUPED = re.compile(r"[1-9][0-9]{0,2}(?:_[0-9]{3})+")
 SIGNATURE = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\)\s*)?")

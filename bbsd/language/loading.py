@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bbsd.errors import Diagnosis, SpecError
-from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
 from bbsd.language.overrides import FILE as OVERRIDES

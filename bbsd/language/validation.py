@@ -9,7 +9,7 @@ from annotated_types import Ge, Le
 from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.mistakes import KEY, WHOLE, Mistake
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.vocabulary import RESERVED
 from bbsd.language.field_types import kind_of
 from bbsd.language.keys import blocks_with, field_at, fields_at

@@ -5,6 +5,7 @@ import runpy
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 PAGE = Path(__file__).parents[2] / "docs" / "rollout.md"
 
@@ -15,6 +16,7 @@ def blocks(kind):
     )
 
 
+@pytest.mark.slow
 def test_the_environment_stepped_in_python_is_solved(tmp_path, monkeypatch):
     (tmp_path / "corridor.yaml").write_text("".join(blocks("yaml")), encoding="utf-8")
     (tmp_path / "example.py").write_text("\n".join(blocks("python")), encoding="utf-8")

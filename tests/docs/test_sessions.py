@@ -9,6 +9,7 @@ from tests.docs.sessions import replayed
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md", "docs/howto.md"])
 def test_a_document_shows_what_its_commands_print(name, tmp_path, request):
     (tmp_path / "specs").symlink_to(ROOT / "specs")

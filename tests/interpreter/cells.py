@@ -6,7 +6,7 @@ from itertools import pairwise, product
 from math import inf
 from typing import TYPE_CHECKING
 
-from bbsd.expression.tree import Call
+from bbsd.expression.syntax.tree import Call
 from bbsd.kernel.functions import clamp_index
 from bbsd.language.field_types import Expression
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, When

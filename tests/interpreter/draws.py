@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING
 
-from bbsd.expression.tree import Call, Expr, parts
+from bbsd.expression.syntax.tree import Call, Expr, parts
 from bbsd.expression.vocabulary import DRAWS
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, name_word, word_of
 

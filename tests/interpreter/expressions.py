@@ -8,13 +8,13 @@ from functools import reduce
 from operator import add, and_, eq, ge, gt, le, lt, mul, ne, neg, not_, or_, pos, sub
 from typing import Any
 
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -137,7 +137,7 @@ def called(call: Call, scope: Scope) -> Value:
     name, arguments = call.function, call.arguments
     if name == "before":
         return evaluate(arguments[0], replace(scope, moment=scope.moment.before or scope.moment))
-    if arguments and isinstance(arguments[0], Each):
+    if arguments and isinstance(arguments[0], Generator):
         return generated(name, arguments[0], scope)
     values = [evaluate(argument, scope) for argument in arguments]
     if name in DRAWS:
@@ -155,7 +155,7 @@ def function_named(operation: str) -> Callable[..., float]:
     return abs if operation == "abs" else getattr(functions, operation)
 
 
-def generated(aggregate_name: str, each: Each, scope: Scope) -> Value:
+def generated(aggregate_name: str, each: Generator, scope: Scope) -> Value:
     """An aggregate of `element for names in source`."""
     items = source(each.source, scope)
     values = []

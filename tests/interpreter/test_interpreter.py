@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.expression.parsing import parse
+from bbsd.expression.syntax.parsing import parse
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, name_word
 from bbsd.language.models import Spec
 from bbsd.text.reading.reader import read

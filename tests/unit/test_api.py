@@ -73,6 +73,7 @@ def test_what_was_designed_has_no_holes_and_earns_what_was_said(designed):
     assert not (found.folder / "again").exists()
 
 
+@pytest.mark.slow
 def test_a_design_that_could_not_be_written_is_refused_before_any_work(spec, tmp_path):
     large = spec(
         EXACT.replace("low: x < 3", "low: 'values(x, 0, 999998)'").replace(

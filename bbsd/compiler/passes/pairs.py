@@ -1,4 +1,4 @@
-"""Folds in which each robot looks at the others, or at all of the team, found again as loops over pairs of robots.
+"""Finds folds in which each robot looks at the others, or at all of the team: they can be loops over pairs of robots.
 
 `min(hypot(x[r] - x, y[r] - y) for r in others)` is, for each robot, a chain of as many operations as there are others.
 The operands are a matrix, a row for each robot, a column for each robot that it looks at. Where a matrix is the same
@@ -19,25 +19,28 @@ if TYPE_CHECKING:
     from bbsd.expression.node_data import Variable
 
 MOST_PAIRS_WRITTEN_OUT = 8
-"""Robots looked at up to this number are written out, which runs faster."""
-FOLDS = frozenset({"+", "*", "minimum", "maximum", "&", "|"})
+"""Folds over up to so many robots are written out, which runs faster (decision 22, loops over pairs)."""
+FOLDABLE = frozenset({"+", "*", "minimum", "maximum", "&", "|"})
+"""Operations that may fold the values of robots."""
 SELECT = "select"
-CHAINS = FOLDS | {SELECT}
+CHAINS = FOLDABLE | {SELECT}
+"""Operations whose chains may be loops over pairs."""
 PREVIOUS, TERM, CONDITION = 0, 1, 0
-"""Operands of a fold; a choice such as `select(condition, term, previous)` has them elsewhere."""
-PREVIOUS_CHOICE = 2
+"""Positions of operands in a link, `previous + term` or `select(condition, term, previous)`."""
+PREVIOUS_IN_SELECT = 2
 
 Rows = tuple[tuple[Node, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Pairs:
-    """The nodes of one expression of pairs: (robots, robots looked at), the first so many of those left out."""
+    """The nodes of one expression of pairs: (robots, robots looked at), without the first few robots looked at."""
 
     rows: Rows
     others: bool
     """Whether a robot looks at the others, else at all of the team."""
     first: int = 0
+    """How many robots looked at are left out."""
 
     @property
     def corner(self) -> Node:
@@ -46,72 +49,72 @@ class Pairs:
 
     @property
     def are_too_few(self) -> bool:
-        """Whether nothing can be said of whomever a robot looks at."""
+        """Whether a robot looks at too few others to tell a pattern."""
         return len(self.rows[0]) < 2
 
     def every(self) -> Iterator[Node]:
-        """All nodes."""
+        """Yield all nodes."""
         for row in self.rows:
             yield from row
 
-    def seen(self) -> Iterator[tuple[Node, int]]:
-        """All nodes, each with the robot looked at."""
+    def with_robots(self) -> Iterator[tuple[Node, int]]:
+        """Yield all nodes, each with the robot looked at."""
         for robot, row in enumerate(self.rows):
             for column, node in enumerate(row, start=self.first):
                 yield node, column + (robot <= column) if self.others else column
 
-    def of(self, place: int) -> Pairs:
-        """Operands of all nodes."""
-        rows = tuple(tuple(node.operands[place] for node in row) for row in self.rows)
+    def operand(self, position: int) -> Pairs:
+        """Return the operands of all nodes at a position."""
+        rows = tuple(tuple(node.operands[position] for node in row) for row in self.rows)
         return Pairs(rows, self.others, self.first)
 
     def own(self) -> list[Node] | None:
-        """Each robot's value, where it is the same whomever it looks at."""
+        """Return each robot's value if it is the same whomever it looks at, else None."""
         if self.rows[0][0] is not self.rows[0][-1] or any(len(set(row)) > 1 for row in self.rows):
             return None
         return [row[0] for row in self.rows]
 
     def are_theirs(self, robot_of: Callable[[Node], int | None]) -> bool:
-        """Whether each node is a value of the robot looked at, given whose values nodes are."""
-        return all(robot_of(node) == robot for node, robot in self.seen())
+        """Return whether each node is a value of the robot looked at, given a function from nodes to robots."""
+        return all(robot_of(node) == robot for node, robot in self.with_robots())
 
     def by_robot(self) -> list[Node] | None:
-        """What is looked at in each robot, where it is the same whoever looks.
+        """Return the value of each robot looked at if it is the same whoever looks, else None.
 
-        Of a robot that nobody looks at it is any literal or constant, if that is what the others are.
+        For a robot that nobody looks at it is any literal or constant, if the values of the others are such.
         """
-        found: dict[int, Node] = {}
-        for node, robot in self.seen():
-            if found.setdefault(robot, node) is not node:
+        values: dict[int, Node] = {}
+        for node, robot in self.with_robots():
+            if values.setdefault(robot, node) is not node:
                 return None
-        if len(found) < len(self.rows) and not all(
-            node.literal or node.operation == "constant" for node in found.values()
+        if len(values) < len(self.rows) and not all(
+            node.literal or node.operation == "constant" for node in values.values()
         ):
             return None
-        return [found.get(robot, self.corner) for robot in range(len(self.rows))]
+        return [values.get(robot, self.corner) for robot in range(len(self.rows))]
 
     def are_alike(self) -> bool:
-        """Whether all nodes are one operation on operands."""
+        """Return whether all nodes are one operation on operands."""
         first = self.corner
-        same = first.operation, first.kind, first.data, len(first.operands)
+        form = first.operation, first.kind, first.data, len(first.operands)
         return bool(first.operands) and all(
-            (node.operation, node.kind, node.data, len(node.operands)) == same for node in self.every()
+            (node.operation, node.kind, node.data, len(node.operands)) == form for node in self.every()
         )
 
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """A fold of each robot, link by link: (robots, links); the first link is the first term itself."""
+    """A fold of each robot, link by link: (robots, links); the first link is the first term."""
 
     links: Pairs
 
     @property
     def operation(self) -> str:
-        """What joins a term to the link before."""
+        """The operation that joins a term to the link before."""
         return self.links.rows[0][1].operation
 
     def begins(self, other: Chain) -> bool:
-        """Whether another chain is this one or its beginning."""
+        """Return whether another chain is this one or its beginning."""
         rows = zip(self.links.rows, other.links.rows, strict=True)
         return self.links.others == other.links.others and all(
             row[: len(begun)] == begun for row, begun in rows
@@ -119,13 +122,13 @@ class Chain:
 
     @property
     def terms(self) -> Pairs:
-        """What is folded: (robots, links)."""
+        """The terms that are folded: (robots, links)."""
         rows = tuple((row[0], *(link.operands[TERM] for link in row[1:])) for row in self.links.rows)
         return Pairs(rows, self.links.others)
 
     @property
     def conditions(self) -> Pairs | None:
-        """Where a term takes the place of those before, in a chain of choices: (robots, links - 1)."""
+        """The conditions under which a term replaces the link before, in a chain of selects: (robots, links - 1)."""
         if self.operation != SELECT:
             return None
         rows = tuple(tuple(link.operands[CONDITION] for link in row[1:]) for row in self.links.rows)
@@ -133,53 +136,53 @@ class Chain:
 
 
 def previous_link(node: Node, operation: str) -> Node | None:
-    """The link before one of such a chain; None for another operation."""
+    """Return the link before a link of a chain; None where the node is no link of one."""
     if node.operation != operation or operation not in CHAINS:
         return None
-    return node.operands[PREVIOUS_CHOICE if operation == SELECT else PREVIOUS]
+    return node.operands[PREVIOUS_IN_SELECT if operation == SELECT else PREVIOUS]
 
 
 def chain_to(nodes: Sequence[Node], n_links: int, *, others: bool) -> Chain | None:
-    """The chain of so many links that ends with a node for each robot; None where they are none."""
+    """Return the chain of so many links that ends with a node for each robot; None where there is none."""
     rows = [row for node in nodes if (row := _links(node, nodes[0].operation, n_links)) is not None]
     return Chain(Pairs(tuple(rows), others)) if len(rows) == len(nodes) else None
 
 
 def _links(node: Node, operation: str, n_links: int) -> tuple[Node, ...] | None:
-    found = [node]
-    while len(found) < n_links:
-        previous = previous_link(found[-1], operation)
+    links = [node]
+    while len(links) < n_links:
+        previous = previous_link(links[-1], operation)
         if previous is None:
             return None
-        found.append(previous)
-    return tuple(reversed(found))
+        links.append(previous)
+    return tuple(reversed(links))
 
 
-def chain_of(before: Pairs) -> Chain | None:
-    """The chain whose links, but for the last, are what pairs need from the one before; None where there is none."""
-    operation = before.rows[0][-1].operation
-    if before.first != 1 or len(before.rows[0]) < 2:
+def chain_before(pairs: Pairs) -> Chain | None:
+    """Return the chain of which pairs are the links but the last, so that each reads the link before; else None."""
+    operation = pairs.rows[0][-1].operation
+    if pairs.first != 1 or len(pairs.rows[0]) < 2:
         return None
-    for row in before.rows:
+    for row in pairs.rows:
         if any(previous_link(following, operation) is not link for link, following in pairwise(row)):
             return None
-    return Chain(Pairs(before.rows, before.others))
+    return Chain(Pairs(pairs.rows, pairs.others))
 
 
-def of_pairs(nodes: Iterable[Node]) -> list[Node]:
-    """What a loop over pairs computes for some nodes."""
-    found: dict[int, Node] = {}
+def nodes_of_pairs(nodes: Iterable[Node]) -> list[Node]:
+    """Return the nodes that a loop over pairs computes for some nodes, they themselves included."""
+    computed: dict[int, Node] = {}
     waiting = list(nodes)
     while waiting:
         node = waiting.pop()
-        if node.level is Level.PAIR and node.number not in found:
-            found[node.number] = node
+        if node.level is Level.PAIR and node.number not in computed:
+            computed[node.number] = node
             waiting.extend(node.operands)
-    return [*found.values()]
+    return [*computed.values()]
 
 
 def robot_of_slot(variable: Variable) -> Callable[[Node], int | None]:
-    """Whose slot of a variable a node is; None for all other nodes."""
+    """Return the function that gives the robot whose slot of a variable a node reads; None for other nodes."""
 
     def robot_of(node: Node) -> int | None:
         if node.operation != "slot":

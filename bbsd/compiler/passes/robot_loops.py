@@ -1,7 +1,7 @@
-"""An episode whose robots do all alike, written for one robot in a loop over robots.
+"""Rewrites an episode whose robots compute alike for one robot in a loop over robots.
 
-Compile time then does not grow with the number of robots. The operations and their order are the same, so is every
-bit of what comes out.
+Compile time then does not grow with the number of robots. The operations and their order stay the same, and so does
+every bit of the outcome.
 """
 
 from __future__ import annotations
@@ -23,48 +23,48 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.episode import Episode
 
 MOST_ROBOTS_WRITTEN_OUT = 3
-"""Robots up to this number are written one after the other, which runs faster."""
+"""Up to so many robots are written one after the other, which runs faster (decision 18, loops over robots)."""
 
 
 def loop_over_robots(meaning: Meaning, most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> Meaning:
-    """The same meaning with one node for what each robot computes, where there are many robots.
+    """Return the same meaning with one node for what every robot computes, where there are many robots.
 
-    In what comes back every robot's slots, choices and reward have the index 0, and stand for all robots.
+    In it slots, choices and reward of robot 0 stand for those of all robots.
     """
     robots = meaning.spec.environment.robots
     if robots <= most_written_out:
         return meaning
     try:
-        return replace(meaning, episode=_episode(meaning.episode, robots))
+        return replace(meaning, episode=_loop_over(meaning.episode, robots))
     except CircularError:
         return meaning
 
 
-def _episode(episode: Episode, robots: int) -> Episode:
-    # What is known before the decision must not be read from a family of values that depend on it, even if one robot's
-    # value happens to be the same.
-    new, alike = RobotGraph(robots), frozenset(_held_alike(episode))
-    beginning, deciding, families = (Families(new, alike) for _ in range(3))
-    beginning.know(_by_variable(episode.start).values())
+def _loop_over(episode: Episode, robots: int) -> Episode:
+    # The start, the decision and the step have families of their own: what the decision reads must not become a member
+    # of a family that depends on the decision, even if one robot's value happens to be the same.
+    robot_graph, alike = RobotGraph(robots), frozenset(_held_alike(episode))
+    at_start, deciding, families = (Families(robot_graph, alike) for _ in range(3))
+    at_start.register(_by_variable(episode.start).values())
     for group in (episode.acted, episode.after, episode.definitions):
-        families.know(_by_variable(group).values())
-    after = _rolled(episode.after, families)
+        families.register(_by_variable(group).values())
+    after = _make_slots(episode.after, families)
     return replace(
         episode,
-        modules=tuple(_module(each, deciding) for each in episode.modules),
-        start=_rolled(episode.start, beginning),
+        modules=tuple(_make_module(module, deciding) for module in episode.modules),
+        start=_make_slots(episode.start, at_start),
         after=after,
-        acted=_met(episode.acted, families),
-        definitions=_met(episode.definitions, families),
-        choices=(families.each(episode.choices),),
-        reward={term: (families.each(nodes),) for term, nodes in episode.reward.items()},
-        expects={name: (families.each(nodes),) for name, nodes in episode.expects.items()},
-        ends=None if episode.ends is None else families.team(episode.ends),
+        acted=_find_slots(episode.acted, families),
+        definitions=_find_slots(episode.definitions, families),
+        choices=(families.make_family(episode.choices),),
+        reward={term: (families.make_family(nodes),) for term, nodes in episode.reward.items()},
+        expects={name: (families.make_family(nodes),) for name, nodes in episode.expects.items()},
+        ends=None if episode.ends is None else families.make_team_value(episode.ends),
     )
 
 
 def _held_alike(episode: Episode) -> Iterable[Variable]:
-    """Names and places whose value is the same for all robots at every moment."""
+    """Yield the variables whose value is the same for all robots at every moment."""
     start = _by_variable(episode.start)
     for variable, nodes in _by_variable(episode.after).items():
         if all(len({node.number for node in values}) == 1 for values in (nodes, start[variable])):
@@ -72,7 +72,7 @@ def _held_alike(episode: Episode) -> Iterable[Variable]:
 
 
 def _by_variable(slots: Mapping[Slot, Node]) -> dict[Variable, list[Node]]:
-    """Return the robots' nodes of each variable; the world's are left out."""
+    """Return the robots' nodes of each variable, without the world's."""
     nodes: dict[Variable, list[Node]] = {}
     for slot, node in slots.items():
         if slot.robot is not None:
@@ -80,27 +80,30 @@ def _by_variable(slots: Mapping[Slot, Node]) -> dict[Variable, list[Node]]:
     return nodes
 
 
-def _rolled(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
+def _make_slots(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
     by_variable = _by_variable(slots)
     return {
-        slot: families.team(node) if slot.robot is None else families.each(by_variable[slot.variable])
+        slot: families.make_team_value(node)
+        if slot.robot is None
+        else families.make_family(by_variable[slot.variable])
         for slot, node in slots.items()
         if not slot.robot
     }
 
 
-def _met(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
-    """Of values that only lend their names to others, those that others need."""
-    found = {
-        Slot(name, 0, place): families.known(nodes) for (name, place), nodes in _by_variable(slots).items()
+def _find_slots(slots: Mapping[Slot, Node], families: Families) -> dict[Slot, Node]:
+    """Return those values that others need; apart from that they only give names."""
+    nodes = {
+        Slot(name, 0, place): families.find_family(family)
+        for (name, place), family in _by_variable(slots).items()
     }
-    return {slot: node for slot, node in found.items() if node is not None}
+    return {slot: node for slot, node in nodes.items() if node is not None}
 
 
-def _module(module: Module, families: Families) -> Module:
+def _make_module(module: Module, families: Families) -> Module:
     cells: Sequence[Sequence[Node]] = list(zip(*module.cells, strict=True))
     return replace(
         module,
-        cells=(tuple(families.each(nodes) for nodes in cells),),
-        excited=(families.each(module.excited),),
+        cells=(tuple(families.make_family(nodes) for nodes in cells),),
+        excited=(families.make_family(module.excited),),
     )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.writing.emission import emitter_of
 from bbsd.compiler.writing.loop_fission import loop_lines
 from bbsd.compiler.writing.precedence import ATOM, Text, grouped, infix, name_text
-from bbsd.compiler.writing.schedule import first_stage_with, stages
+from bbsd.compiler.writing.schedule import first_stage_with, stages_of
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 from bbsd.expression.operations import BINDING
@@ -29,7 +29,7 @@ ACTION_BITS = 16
 
 @dataclass
 class Arbitration:
-    """What finds the action that controls each robot."""
+    """The statements that find the action that controls each robot."""
 
     function: RolloutFunction
 
@@ -84,7 +84,7 @@ class Arbitration:
     def stage(self) -> int:
         """The stage of a step in which the robots decide."""
         level = Level.EACH if self.function.looped else Level.LANE
-        return first_stage_with(self.sensed, stages(self.sensed, 0), level)
+        return first_stage_with(self.sensed, stages_of(self.sensed, 0), level)
 
     @property
     def sensed(self) -> list[Node]:

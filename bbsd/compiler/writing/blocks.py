@@ -115,6 +115,10 @@ class Block:
         """Store a value after all other statements."""
         self.after.append(Assignment(element, text))
 
+    def see_robot(self, offset: str) -> None:
+        """Read values of another robot, which begin at an offset of that name."""
+        self.robots_seen.add(offset)
+
     def comment(self, words: str, *, starts_phase: bool = False) -> None:
         """Write a comment."""
         self.statements.append(Comment(words, starts_phase))
@@ -191,7 +195,7 @@ class Blocks:
 
 
 class Writer(Protocol):
-    """What writes nodes into blocks, as loops over robots know it."""
+    """A writer of nodes into blocks: what loops over robots ask of the emitter, which stands above them."""
 
     @property
     def blocks(self) -> Blocks:

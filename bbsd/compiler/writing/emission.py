@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.compiler.passes.pairs import of_pairs
+from bbsd.compiler.passes.pairs import nodes_of_pairs
 from bbsd.compiler.writing.blocks import Blocks
 from bbsd.compiler.writing.looping import Loops
 from bbsd.compiler.writing.precedence import (
@@ -23,7 +23,7 @@ from bbsd.compiler.writing.precedence import (
     sum_of,
     times,
 )
-from bbsd.compiler.writing.schedule import stages
+from bbsd.compiler.writing.schedule import stages_of
 from bbsd.expression.graph import Level, Node, needed
 from bbsd.expression.node_data import RobotDraws, RobotGathers
 from bbsd.expression.operations import BINDING, EXPENSIVE
@@ -38,14 +38,14 @@ if TYPE_CHECKING:
 LONGEST_TEXT = 88
 """Characters of an expression without a name; a longer one gets a name, so that lines can be read."""
 DEEPEST = 50
-"""Operations within one another at which a value gets a name, however short its source."""
+"""Operations within one another at which a value gets a name, however short its source: so nothing recurses far."""
 LEAF = frozenset({"slot", "constant", "step", "start"})
 """Operations that read a value from an array, an argument or a variable of the loops."""
-STANDING = frozenset({"over", "each", "among"})
+STORED_AT_ONCE = frozenset({"over", "each", "among"})
 """Operations whose value is stored in an array as soon as it is computed."""
 CROSSING = frozenset({"of", "other", "theirs"})
 """Operations that read what another robot's loop computes."""
-STORED = frozenset({"slot", "table", "pick"})
+STORED_BEFORE = frozenset({"slot", "table", "pick"})
 """Operations whose values are stored before a step is computed."""
 STEMS = {Level.CALL: "fixed", Level.STEP: "now", Level.ROBOT: "its"}
 """Of the names of values that mean nothing to the designer, by how often they change."""
@@ -57,7 +57,7 @@ class Usage(NamedTuple):
     counts: Counter[int]
     """By the node's number, how often a value is used."""
     deep: set[int]
-    """Nodes far above their leaves."""
+    """Nodes far above their leaves that are not yet written: they are written first, so that nothing recurses far."""
     stage_of: dict[int, int]
     """By the node's number, the stage in which a value is computed."""
 
@@ -68,18 +68,18 @@ def usage_of(outputs: Iterable[Node], decided: int = 0) -> Usage:
     nodes = needed(outputs)
     counts = Counter(operand.number for node in nodes for operand in node.operands)
     counts.update(node.number for node in outputs)
-    return Usage(counts, _deep(nodes), stages(outputs, decided))
+    return Usage(counts, _deep(nodes), stages_of(outputs, decided))
 
 
 @dataclass(slots=True)
 class Emitter:
-    """A writer of values into the blocks of a function, each where its level and stage say."""
+    """A writer that computes each value in the block that its level and stage say."""
 
     namer: Namer
     loops: Loops
-    """What is special where there are loops over robots, and how values cross from one stage to another."""
+    """The source of operations on robots, and of values that cross from one stage to another."""
     leaf: Callable[[Node], Text]
-    """Returns the source of a slot, a constant or the step."""
+    """The source of a slot, a constant or the step."""
     key: Text
     """The lane's key."""
     step: Text
@@ -106,12 +106,12 @@ class Emitter:
 
         The name is the designer's where none is given. Literals and values that are stored in arrays have no name.
         """
-        if node.literal or node.operation in LEAF | STANDING:
+        if node.literal or node.operation in LEAF | STORED_AT_ONCE:
             return self.text(node, into)
         self._write_deep(node, into)
         return self._define(node, name or self.hints.get(node.number), into)
 
-    def copied(self, node: Node, name: str, now: Block, later: Block) -> Text:
+    def copy(self, node: Node, name: str, now: Block, later: Block) -> Text:
         """Return a name in a later block for what a slot holds now; the slot may hold something else then."""
         name = self.namer(name)
         copy = now.define(name, self.text(node, now), node.kind)
@@ -145,7 +145,7 @@ class Emitter:
             return
         # Of what a loop over pairs computes, a value in another such loop is reached by no way but its array.
         of_this_loop = (
-            {inner.number for inner in of_pairs([node])} if into.level is Level.PAIR else set[int]()
+            {inner.number for inner in nodes_of_pairs([node])} if into.level is Level.PAIR else set[int]()
         )
         for operand in needed(node.operands):
             if operand.number in deep and (operand.number in of_this_loop or _is_reachable(operand, into)):
@@ -153,8 +153,8 @@ class Emitter:
                 deep.remove(operand.number)
 
     def _write(self, node: Node, home: Block) -> None:
-        if node.operation in STANDING:
-            self.loops.standing(node, self)
+        if node.operation in STORED_AT_ONCE:
+            self.loops.stored_at_once(node, self)
         else:
             self._define(node, self.hints.get(node.number), home)
 
@@ -163,9 +163,13 @@ class Emitter:
             return literal_text(node)
         if node.operation in LEAF:
             return self.leaf(node)
-        if node.operation in STANDING:
-            return self.loops.standing(node, self)
-        if node.operation in CROSSING and node.operands[0].operation in STORED and node.level is into.level:
+        if node.operation in STORED_AT_ONCE:
+            return self.loops.stored_at_once(node, self)
+        if (
+            node.operation in CROSSING
+            and node.operands[0].operation in STORED_BEFORE
+            and node.level is into.level
+        ):
             return self.loops.text(node, into, self)
         home = self._home(node, into)
         if node.number in home.names or node.number in into.names:
@@ -204,7 +208,7 @@ class Emitter:
                 operand = self._text(operands[0], into)
                 return operand._replace(source=f"-{grouped(operand, ATOM)}", binds=SIGN)
             case "not":
-                binds = ATOM if operands[0].operation in LEAF | STANDING else COMPARISON
+                binds = ATOM if operands[0].operation in LEAF | STORED_AT_ONCE else COMPARISON
                 operand = self._text(operands[0], into)
                 return operand._replace(source=f"not {grouped(operand, binds)}", binds=LOWEST)
             case "draw":

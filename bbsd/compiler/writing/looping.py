@@ -59,7 +59,7 @@ class Loops:
         (family,) = node.operands
         return self.function.read(self._array(family, writer), family.kind, sum_of([robot, LANE]))
 
-    def standing(self, node: Node, writer: Writer) -> Text:
+    def stored_at_once(self, node: Node, writer: Writer) -> Text:
         """Return the source of a value that is stored in an array as soon as it is computed."""
         return self.function.read(self._array(node, writer), node.kind)
 
@@ -94,7 +94,7 @@ class Loops:
         else:
             folded = infix(operation, accumulated, value)
         folded = function.call_of("select", FIRST_ROBOT, value, folded)
-        block.store(function.at(array), function.stored(folded, node.kind))
+        block.store(function.at(array), function.as_stored(folded, node.kind))
         return array
 
     def _fold_among(self, node: Node, writer: Writer) -> str:
@@ -119,7 +119,7 @@ class Loops:
         function, array = self.function, self.folds[block.stage, number]
         name = function.namer(f"next_{array}")
         value = block.define(name, self._next(following, first, block, writer), following.kind)
-        block.store_after(function.at(array), function.stored(value, following.kind))
+        block.store_after(function.at(array), function.as_stored(value, following.kind))
 
     def _next(self, following: Node, first: Node, block: Block, writer: Writer) -> Text:
         """Return the fold's next value, or its first one for the first robot."""
@@ -139,7 +139,7 @@ class Loops:
         array = self._new("apart", node, writer)
         for robot, operand in enumerate(node.operands):
             index = sum_of([times(robot, STRIDE), LANE])
-            value = self.function.stored(writer.text(operand, block), node.kind)
+            value = self.function.as_stored(writer.text(operand, block), node.kind)
             block.store(f"{array}[{index.source}]", value)
         return array
 
@@ -157,7 +157,7 @@ class Loops:
             writer.blocks.robot(into.stage).define(name, infix("*", self._which(robots), STRIDE))
             self.seen[into.stage, robots] = name
         name = self.seen[into.stage, robots]
-        into.robots_seen.add(name)
+        into.see_robot(name)
         return name_text(name)
 
     def _which(self, robots: tuple[int, ...]) -> Text:

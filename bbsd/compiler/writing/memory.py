@@ -1,4 +1,4 @@
-"""What a rollout keeps from step to step and from loop to loop: arrays with a place for every lane.
+"""The memory of a rollout: arrays with an element for every lane, kept from step to step and from loop to loop.
 
 They lie in one piece of memory that the caller gives, the team's before the robots': few pieces, so that LLVM has few
 ranges to compare before it vectorizes a loop. The values of one robot lie together, `stride` numbers from those of the
@@ -14,16 +14,16 @@ from bbsd.expression.kinds import Kind
 
 @dataclass(slots=True)
 class Memory:
-    """The names of all that is kept."""
+    """The names of all arrays, in the order in which they lie in memory."""
 
     numbers: list[str] = field(default_factory=list)
     integers: list[str] = field(default_factory=list)
     own_numbers: list[str] = field(default_factory=list)
     own_integers: list[str] = field(default_factory=list)
-    """Those of each robot, where there are loops over robots."""
+    """The arrays with values of each robot, where there are loops over robots."""
 
     def add(self, name: str, kind: Kind, *, own: bool) -> str:
-        """Keep something more; truths are numbers, 0 and 1."""
+        """Add an array and return its name; truths are kept as the numbers 0 and 1."""
         if kind is Kind.CELL:
             (self.own_integers if own else self.integers).append(name)
         else:
@@ -31,24 +31,24 @@ class Memory:
         return name
 
     def is_own(self, name: str) -> bool:
-        """Whether an array holds a value of each robot."""
+        """Return whether an array holds a value of each robot."""
         return name in self.own_numbers or name in self.own_integers
 
     @property
     def functions(self) -> set[str]:
-        """The kernel's functions that the lines call."""
+        """The functions of the kernel that the lines call."""
         return {"part", "as_words", *(["as_integers"] if self.integers or self.own_integers else [])}
 
     def team_size(self, lanes: int) -> int:
-        """How many numbers the team's arrays have."""
+        """Return how many numbers the team's arrays take."""
         return (1 + len(self.numbers) + len(self.integers)) * lanes
 
     def size(self, lanes: int, robots: int) -> int:
-        """How many numbers all arrays have."""
+        """Return how many numbers all arrays take."""
         return self.team_size(lanes) + (len(self.own_numbers) + len(self.own_integers)) * lanes * robots
 
     def lines(self, lanes: int) -> list[str]:
-        """The lines that set up the team's arrays."""
+        """Return the lines that set up the team's arrays."""
         arrays = [("key", "streams"), *_views("", self.numbers, self.integers)]
         return [
             "streams = as_words(numbers)",
@@ -57,7 +57,7 @@ class Memory:
         ]
 
     def own_lines(self, lanes: int, robots: int) -> list[str]:
-        """The lines that set up the robots' arrays, which begin with the first robot's values, behind the team's."""
+        """Return the lines that set up the robots' arrays, behind the team's; each begins with the first robot."""
         arrays = _views("own_", self.own_numbers, self.own_integers)
         stride = len(arrays) * lanes
         size = stride * robots
@@ -73,7 +73,7 @@ class Memory:
 
 
 def _views(prefix: str, numbers: list[str], integers: list[str]) -> list[tuple[str, str]]:
-    """Arrays, each with the view of the memory that it is a part of."""
+    """Return arrays with the view of the memory that each is a part of."""
     return [
         *((name, f"{prefix}numbers") for name in numbers),
         *((name, f"{prefix}cells") for name in integers),

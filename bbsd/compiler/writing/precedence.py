@@ -51,7 +51,7 @@ def infix(operation: str, left: Text, right: Text) -> Text:
     return Text(source, binds, left.uses | right.uses, left.expensive or right.expensive)
 
 
-def joined(operation: str, texts: Iterable[Text]) -> Text:
+def join(operation: str, texts: Iterable[Text]) -> Text:
     """Join one or more operands from left to right."""
     first, *rest = texts
     for text in rest:
@@ -61,7 +61,7 @@ def joined(operation: str, texts: Iterable[Text]) -> Text:
 
 def sum_of(texts: Iterable[Text]) -> Text:
     """Add integers from left to right; zeros are left out."""
-    return joined("+", [text for text in texts if text.source != "0"] or [Text("0")])
+    return join("+", [text for text in texts if text.source != "0"] or [Text("0")])
 
 
 def times(factor: int, text: Text) -> Text:

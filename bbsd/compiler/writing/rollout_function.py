@@ -102,7 +102,7 @@ class RolloutFunction:
             return Text(f"{element.source} != 0.0", COMPARISON, element.uses)
         return element
 
-    def stored(self, text: Text, kind: Kind) -> Text:
+    def as_stored(self, text: Text, kind: Kind) -> Text:
         """Return a value as arrays keep it."""
         if kind is not Kind.TRUTH:
             return text
@@ -122,19 +122,19 @@ class RolloutFunction:
 
     def lane_loop(self, lines: Iterable[str]) -> list[str]:
         """Return a loop that does lines for every lane."""
-        return [f"for lane in range({self.lanes}):", *indented(lines, 1)]
+        return [f"for lane in range({self.lanes}):", *indent(lines, 1)]
 
     def robot_loop(self, before: Iterable[str], bodies: Iterable[Iterable[str]]) -> list[str]:
         """Return a loop that does lines, and then loops over lanes with these bodies, for every robot."""
         inner = ["own = robot * stride", *before, *(line for body in bodies for line in self.lane_loop(body))]
-        return [f"for robot in range({self.team}):", *indented(inner, 1)]
+        return [f"for robot in range({self.team}):", *indent(inner, 1)]
 
     def pair_loop(self, before: Iterable[str], bodies: Iterable[Iterable[str]], *, others: bool) -> list[str]:
         """Return a loop that does lines, and then loops over lanes, for every robot that the present one looks at."""
         other = f"pair + {self.call_of('cell_of', Text('robot <= pair')).source}" if others else "pair"
         inner = [f"other = {other}", "theirs = other * stride", *before]
         inner += [line for body in bodies for line in self.lane_loop(body)]
-        return [f"for pair in range({self.team - others}):", *indented(inner, 1)]
+        return [f"for pair in range({self.team - others}):", *indent(inner, 1)]
 
     def slot_of(self, node: Node) -> str:
         """Return the array of a slot that is read."""
@@ -224,7 +224,7 @@ class RolloutFunction:
         ]
 
 
-def indented(lines: Iterable[str], depth: int) -> list[str]:
+def indent(lines: Iterable[str], depth: int) -> list[str]:
     """Return lines deeper by so many levels."""
     return [f"{'    ' * depth}{line}" for line in lines]
 

@@ -22,7 +22,7 @@ FIRST = {Level.LANE: 0, Level.EACH: 1}
 """The first stage of the team, and of the robots."""
 
 
-def stages(outputs: Iterable[Node], decided: int) -> dict[int, int]:
+def stages_of(outputs: Iterable[Node], decided: int) -> dict[int, int]:
     """Return the stage of every node that the outputs need, by its number; choices are known from stage `decided` on.
 
     Nodes that are computed outside the loops over lanes have stage 0.
@@ -98,7 +98,7 @@ class Closing:
         return self.store_each if own else self.store_team
 
 
-def closing(blocks: Blocks, stage_of: Mapping[int, int], outputs: Iterable[Node]) -> Closing:
+def closing_of(blocks: Blocks, stage_of: Mapping[int, int], outputs: Iterable[Node]) -> Closing:
     """Return the last blocks of a step that computes these outputs."""
     block = blocks.stage
     if not blocks.looped:

@@ -13,8 +13,8 @@ from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.emission import emitter_of
 from bbsd.compiler.writing.loop_fission import loop_lines
 from bbsd.compiler.writing.precedence import Text
-from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO, RolloutFunction, indented
-from bbsd.compiler.writing.schedule import Closing, closing
+from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO, RolloutFunction, indent
+from bbsd.compiler.writing.schedule import Closing, closing_of
 from bbsd.compiler.writing.totals import DETAILED, Totals
 from bbsd.kernel import functions, memory, streams
 from bbsd.version import __version__
@@ -70,13 +70,13 @@ def rollout_source(function: RolloutFunction) -> str:
     return "\n".join(
         [
             f"def {function.detail.value}({', '.join(arguments)}):",
-            *indented(function.scratch(), 1),
-            *indented(function.call.lines, 1),
+            *indent(function.scratch(), 1),
+            *indent(function.call.lines, 1),
             f"    for base in range(first, last, {function.lanes}):",
-            *indented(start, 2),
+            *indent(start, 2),
             f"        for step in range(1, {function.meaning.spec.environment.steps + 1}):",
-            *indented(step, 3),
-            *indented(finish, 2),
+            *indent(step, 3),
+            *indent(finish, 2),
             *([] if function.uncertain is None else _ends_uncertain(function.uncertain)),
         ]
     )
@@ -94,7 +94,7 @@ def _start(function: RolloutFunction, arbitration: Arbitration, totals: Totals) 
     first = emitter.blocks.stage(0)
     first.store("key[lane]", Text("keys[base + lane]"))
     arbitration.start(first)
-    end = closing(emitter.blocks, emitter.stage_of, start.values())
+    end = closing_of(emitter.blocks, emitter.stage_of, start.values())
     blocks = {slot: end.knowing(own=function.is_own(array)) for slot, array in function.slots.items()}
     texts = {slot: emitter.text(node, blocks[slot]) for slot, node in start.items()}
     for slot, text in texts.items():
@@ -111,7 +111,7 @@ def _step(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -
     """Return the lines of a step of every lane, in the order of the language's definition."""
     emitter = emitter_of(function, [*function.outputs, *function.episode.choices], arbitration.stage)
     deciding = emitter.blocks.stage(arbitration.stage)
-    end = closing(emitter.blocks, emitter.stage_of, function.outputs)
+    end = closing_of(emitter.blocks, emitter.stage_of, function.outputs)
     deciding.comment("Decide: the highest layer that is excited and whose cell is not No Action controls.")
     for robot in range(function.robots):
         arbitration.decide(robot, emitter, deciding)
@@ -146,7 +146,7 @@ def _after(function: RolloutFunction, emitter: Emitter, end: Closing) -> dict[Sl
         block = end.storing(own=function.is_own(array))
         if node.operation == "slot":
             now = end.knowing(own=node.level in OWN)
-            texts[slot] = emitter.copied(node, name, now, block)
+            texts[slot] = emitter.copy(node, name, now, block)
         else:
             texts[slot] = emitter.repeatable(node, block, name)
     return texts
@@ -154,4 +154,4 @@ def _after(function: RolloutFunction, emitter: Emitter, end: Closing) -> dict[Sl
 
 def _store_slot(function: RolloutFunction, slot: Slot, text: Text, block: Block) -> None:
     array, kind = function.slots[slot], function.episode.after[slot].kind
-    block.store(function.at(array), function.stored(text, kind))
+    block.store(function.at(array), function.as_stored(text, kind))

@@ -1,4 +1,4 @@
-"""Sums over an episode: returns and credit; for an evaluation also terms, control, steps and unusual values."""
+"""Sums over an episode: returns and credit; for an evaluation also terms, control, steps and values not finite."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import Detail, checked_slots, traced_definitions
 from bbsd.compiler.writing.looping import FIRST_ROBOT
-from bbsd.compiler.writing.precedence import Text, infix, joined, name_text, sum_of, times
+from bbsd.compiler.writing.precedence import Text, infix, join, name_text, sum_of, times
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
 from bbsd.expression.graph import value_of
 
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 MOST_ADDED = 3
 """Conditional sums in one expression, so that lines can be read."""
 DETAILED = ("terms", "control", "steps_taken", "not_finite", "expectations_met")
-"""The arguments that a detailed rollout has besides."""
+"""The arguments that a detailed rollout has besides, in their order."""
 
 
 @dataclass
 class Totals:
-    """What a rollout adds up over an episode."""
+    """The statements that add up an episode."""
 
     function: RolloutFunction
     arbitration: Arbitration
@@ -108,7 +108,7 @@ class Totals:
                 otherwise = function.while_running(ONE, uncertain)
                 block.store(
                     function.at(array),
-                    function.call_of("select", joined("&", texts), uncertain, otherwise),
+                    function.call_of("select", join("&", texts), uncertain, otherwise),
                 )
 
     def _earned_by_team(self, earned: list[Text], end: Closing) -> Text:
@@ -119,7 +119,7 @@ class Totals:
             more = infix("+", function.read(array), earned[0])
             end.each.store(function.at(array), function.call_of("select", FIRST_ROBOT, earned[0], more))
             return function.read(array)
-        return joined("+", earned)
+        return join("+", earned)
 
     def _controls(self, index: int, robot: int, emitter: Emitter, end: Closing) -> Text:
         """Return whether a behavior controls a robot, where a step's sums are added."""
@@ -162,7 +162,7 @@ class Totals:
     def _add(self, block: Block, array: str, texts: Iterable[Text]) -> None:
         """Add values to a sum."""
         function = self.function
-        block.store(function.at(array), joined("+", [function.read(array), *texts]))
+        block.store(function.at(array), join("+", [function.read(array), *texts]))
 
     def add_details(self, emitter: Emitter, end: Closing) -> None:
         """Add what an evaluation reports: terms, steps of control, steps taken, values that are not finite."""
@@ -218,7 +218,7 @@ class Totals:
             return self._if(self.arbitration.controls(index, robot), met)
 
         return [
-            joined("+", [outcome(index, nodes[robot], robot) for index, nodes in self._expected])
+            join("+", [outcome(index, nodes[robot], robot) for index, nodes in self._expected])
             for robot in range(self.function.robots)
         ]
 

@@ -10,8 +10,8 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.forms import kind_by_form
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import KEY, WHOLE
-from bbsd.expression.tree import Name, Span
+from bbsd.expression.syntax.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.tree import Name, Span
 from bbsd.language.field_types import Expression
 from bbsd.language.meaning.partitions import (
     MAX_CELLS,
@@ -173,9 +173,9 @@ def _not_listed(name: str, names: Names) -> tuple[str, Span, str]:
         kind = "a definition" if name in names.definitions else "a constant"
         advice = "make a sensor of it, or write inputs as a mapping: a name, then the partition"
         return f"{name} is {kind}; inputs lists sensors, and truths of the robot's state", WHOLE, advice
-    known = [*environment.sensors, *environment.state]
+    candidates = [*environment.sensors, *environment.state]
     advice = "inputs lists sensors, and truths of the state; other partitions are a mapping: name, then what it cuts"
-    return f'"{name}" is neither sensor nor state{did_you_mean(name, known)}', WHOLE, advice
+    return f'"{name}" is neither sensor nor state{did_you_mean(name, candidates)}', WHOLE, advice
 
 
 def _inputs(

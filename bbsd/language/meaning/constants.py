@@ -90,7 +90,7 @@ def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of n
 
 
 def read_constants(
-    written: Mapping[str, Nested],
+    constants: Mapping[str, Nested],
     seed_key: int,
     graph: Graph,
     findings: Findings,
@@ -104,53 +104,55 @@ def read_constants(
     base = Scope(graph, bindings, findings)
     constants_key = streams.fold(seed_key, streams.name_word("constants"))
     values: dict[str, Value] = {}
-    for name in _dependency_order(written, unusable):
+    for name in _dependency_order(constants, unusable):
         path: Path = ("constants", name)
         key = streams.fold(constants_key, streams.name_word(name))
-        values[name] = _with_draws(_read(written[name], base, path), key, base.at(path), written[name])
+        values[name] = _with_draws(_read(constants[name], base, path), key, base.at(path), constants[name])
         bindings[name] = Shared(values[name])
-    ordered = {name: values[name] for name in written if name in values}
+    ordered = {name: values[name] for name in constants if name in values}
     scalars: list[Node] = []
     leaves = {name: _leaves(value, scalars, graph) for name, value in ordered.items()}
     whole = whole_nodes(scalars, {GENERATION_SLOT: True}, lambda _: False)
     return Constants(ordered, tuple(scalars), leaves, tuple(whole[node.number] for node in scalars))
 
 
-def _dependency_order(written: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
+def _dependency_order(constants: Mapping[str, Nested], unusable: frozenset[str]) -> list[str]:
     used = {
-        name: names_used_in(expressions_in(value)) for name, value in written.items() if name not in unusable
+        name: names_used_in(expressions_in(value))
+        for name, value in constants.items()
+        if name not in unusable
     }
     return dependency_order(uses_among(used))
 
 
-def _read(written: Nested, scope: Scope, path: Path) -> Value:
-    if isinstance(written, tuple):
-        return tuple(_read(item, scope, (*path, index)) for index, item in enumerate(written))
-    value = elaboration.value(written.tree, scope.at(path, 0, draws=True))
-    return _numbers_only(value, scope.at(path), written)
+def _read(constant: Nested, scope: Scope, path: Path) -> Value:
+    if isinstance(constant, tuple):
+        return tuple(_read(item, scope, (*path, index)) for index, item in enumerate(constant))
+    value = elaboration.value(constant.tree, scope.at(path, 0, draws=True))
+    return _numbers_only(value, scope.at(path), constant)
 
 
-def _numbers_only(value: Value, scope: Scope, written: Expression) -> Value:
+def _numbers_only(value: Value, scope: Scope, expression: Expression) -> Value:
     """Return a value with truths reported and replaced by unknown numbers."""
     if isinstance(value, tuple):
-        return tuple(_numbers_only(item, scope, written) for item in value)
+        return tuple(_numbers_only(item, scope, expression) for item in value)
     if value.kind is Kind.TRUTH:
         message = "a constant is a number or a list of numbers, not a truth"
-        return scope.mistake("BB055", message, written.tree.span)
+        return scope.mistake("BB055", message, expression.tree.span)
     return value
 
 
-def _with_draws(value: Value, key: int, scope: Scope, written: Nested) -> Value:
+def _with_draws(value: Value, key: int, scope: Scope, constant: Nested) -> Value:
     """Return the value with its draws made from the stream of `key`; it may still depend on the generation."""
     if isinstance(value, tuple):
-        texts = written if isinstance(written, tuple) else (written,) * len(value)
+        texts = constant if isinstance(constant, tuple) else (constant,) * len(value)
         return tuple(_with_draws(item, key, scope, text) for item, text in zip(value, texts, strict=True))
     try:
         return replace_leaves(
             value, scope.graph, lambda node, operands: _draw(node, operands, key, scope.graph)
         )
     except _DrawsWithGenerationError:
-        span = expressions_in(written)[0].tree.span
+        span = expressions_in(constant)[0].tree.span
         return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)
 
 

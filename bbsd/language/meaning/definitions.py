@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.expression.mistakes import KEY
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
-from bbsd.expression.tree import frames, names_used
+from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.syntax.tree import names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
 from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
@@ -14,7 +14,7 @@ from bbsd.language.models import OTHERWISE, Spec
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from bbsd.expression.tree import Expr
+    from bbsd.expression.syntax.tree import Expr
 
 FRAMES_OF_A_NAME = 8
 """Frames of Python's stack from a name to the expression behind it."""
@@ -22,10 +22,10 @@ MAX_FRAMES = 600
 """Frames for a chain of names, of the 1000 that Python has."""
 
 
-def read_definitions(written: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
+def read_definitions(expressions: Mapping[str, Expression], findings: Findings) -> dict[str, Definition]:
     """Return each definition by its name; report a duplicate and keep the first."""
     definitions: dict[str, Definition] = {}
-    for key, expression in written.items():
+    for key, expression in expressions.items():
         path: Path = ("environment", "definitions", key)
         name, *parameters = signature(key)
         if name in definitions:
@@ -99,7 +99,7 @@ class Needs(NamedTuple):
     def of(cls, trees: Sequence[Expr], parameters: Sequence[str] = ()) -> Needs:
         """Return what expressions need, in which the parameters are given."""
         used = frozenset[str]().union(*(names_used(tree, frozenset(parameters)) for tree in trees))
-        return cls(used, FRAMES_OF_A_NAME + max(map(frames, trees), default=0))
+        return cls(used, FRAMES_OF_A_NAME + max(map(stack_depth, trees), default=0))
 
 
 def _trees(expressions: Iterable[Expression]) -> list[Expr]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, GraphTooLargeError
-from bbsd.expression.mistakes import Mistake, TooManyMistakesError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
+from bbsd.expression.syntax.mistakes import Mistake, TooManyMistakesError
 from bbsd.language.meaning.constants import read_constants
 from bbsd.language.meaning.contradictions import report_contradictions, with_generations
 from bbsd.language.meaning.definitions import (

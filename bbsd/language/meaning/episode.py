@@ -15,9 +15,9 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import KEY
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
+from bbsd.expression.syntax.mistakes import KEY
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot
@@ -146,8 +146,8 @@ def _starting_values(names: Names) -> Stored:
     def start(name: str, robot: int) -> Node:
         if (name, robot) not in starts:
             block, owner = ("world", names.team) if name in environment.world else ("state", robot)
-            here = scope.at(("environment", block, name), owner, draws=True)
-            starts[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, here)
+            inner = scope.at(("environment", block, name), owner, draws=True)
+            starts[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, inner)
         return starts[name, robot]
 
     bindings: dict[str, Binding] = {

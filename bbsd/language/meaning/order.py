@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING
 
-from bbsd.expression.tree import names_used
+from bbsd.expression.syntax.tree import names_used
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

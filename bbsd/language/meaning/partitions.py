@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import KEY
-from bbsd.expression.text import render
-from bbsd.expression.tree import Call, Name, Span
+from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import Call, Name, Span
 from bbsd.language.meaning.coverage import covers_everything
 from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
@@ -35,36 +35,36 @@ class Partition:
     index: Node
 
 
-def is_partition(written: PartitionText) -> bool:
+def is_partition(sensor: PartitionText) -> bool:
     """Return whether a sensor is written as named cells, cut(...) or values(...), not as a plain expression."""
-    return isinstance(written, dict) or (
-        isinstance(written.tree, Call) and written.tree.function in ("cut", "values")
+    return isinstance(sensor, dict) or (
+        isinstance(sensor.tree, Call) and sensor.tree.function in ("cut", "values")
     )
 
 
 def elaborate_partition(
-    written: PartitionText, scope: Scope, path: Path, robot: int | None
+    partition: PartitionText, scope: Scope, path: Path, robot: int | None
 ) -> Partition | None:
     """Return the cells of a partition and the index of the robot's; None after a mistake."""
-    here = scope.at(path, robot, draws=scope.draws is not None)
-    if isinstance(written, dict):
-        return _named_cells(written, scope, path, robot)
-    tree = written.tree
+    inner = scope.at(path, robot, draws=scope.draws is not None)
+    if isinstance(partition, dict):
+        return _named_cells(partition, scope, path, robot)
+    tree = partition.tree
     if isinstance(tree, Call) and tree.function == "cut":
-        return _cut(tree, here)
+        return _cut(tree, inner)
     if isinstance(tree, Call) and tree.function == "values":
-        return _values(tree, here)
-    return _truth(written, here)
+        return _values(tree, inner)
+    return _truth(partition, inner)
 
 
-def _truth(written: Expression, scope: Scope) -> Partition | None:
-    value = elaboration.value(written.tree, scope)
+def _truth(expression: Expression, scope: Scope) -> Partition | None:
+    value = elaboration.value(expression.tree, scope)
     if isinstance(value, tuple) or value.kind is Kind.NUMBER:
         what = "a list" if isinstance(value, tuple) else "a number"
-        advice = (
-            f"cut it: cut({written.text}, ...) or values({written.text}, first, last), or write a condition"
+        advice = f"cut it: cut({expression.text}, ...) or values({expression.text}, first, last), or write a condition"
+        scope.mistake(
+            "BB030", f"an input needs a partition, and this is {what}", expression.tree.span, advice
         )
-        scope.mistake("BB030", f"an input needs a partition, and this is {what}", written.tree.span, advice)
         return None
     return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", value))
 
@@ -123,12 +123,16 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
 
 
 def _named_cells(
-    written: dict[str, Expression], scope: Scope, path: Path, robot: int | None
+    conditions_by_label: dict[str, Expression], scope: Scope, path: Path, robot: int | None
 ) -> Partition | None:
-    labels = tuple(written)
-    trees = list(written.values())
-    final = isinstance(trees[-1].tree, Name) and trees[-1].tree.name == OTHERWISE if trees else False
-    conditions = trees[:-1] if final else trees
+    labels = tuple(conditions_by_label)
+    expressions = list(conditions_by_label.values())
+    final = (
+        isinstance(expressions[-1].tree, Name) and expressions[-1].tree.name == OTHERWISE
+        if expressions
+        else False
+    )
+    conditions = expressions[:-1] if final else expressions
     nodes = [
         elaboration.truth(condition.tree, scope.at((*path, label), robot, draws=scope.draws is not None))
         for label, condition in zip(labels, conditions, strict=False)
@@ -142,7 +146,7 @@ def _named_cells(
     if not final and not covers_everything(nodes, scope.graph):
         advice = "write the last cell's condition as otherwise"
         whole.at((*path, labels[-1])).mistake(
-            "BB032", "these cells do not provably cover everything", trees[-1].tree.span, advice
+            "BB032", "these cells do not provably cover everything", expressions[-1].tree.span, advice
         )
         return None
     graph = scope.graph

@@ -6,17 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
-from bbsd.expression.checks import of_kind
+from bbsd.expression.checks import require_kind
 from bbsd.expression.graph import Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import WHOLE
+from bbsd.expression.syntax.mistakes import WHOLE
 from bbsd.language.field_types import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
     from bbsd.expression.scope import Scope, Value
-    from bbsd.expression.tree import Span
+    from bbsd.expression.syntax.tree import Span
     from bbsd.language.field_types import Nested
     from bbsd.language.meaning.moments import Moment
     from bbsd.language.view import View
@@ -61,12 +61,12 @@ class _Read:
     """A value and where to report its mistakes: at its own item of a list, or at the expression that gives it."""
 
     value: Value
-    written: Nested
+    origin: Nested
     scope: Scope
 
     @property
     def span(self) -> Span:
-        return self.written.tree.span if isinstance(self.written, Expression) else WHOLE
+        return self.origin.tree.span if isinstance(self.origin, Expression) else WHOLE
 
     @property
     def is_unknown(self) -> bool:
@@ -79,7 +79,7 @@ class _Read:
 
     def number(self) -> Node:
         """Return the value as a number; report anything else."""
-        return of_kind(self.value, Kind.NUMBER, self.span, self.scope)
+        return require_kind(self.value, Kind.NUMBER, self.span, self.scope)
 
     def rows(self, fewest: int = 0) -> tuple[_Read, ...]:
         """Return the items of a list; report anything else, or too short a list."""
@@ -90,10 +90,10 @@ class _Read:
         return ()
 
     def _item(self, index: int, value: Value) -> _Read:
-        if isinstance(self.written, Expression):
-            return _Read(value, self.written, self.scope)
+        if isinstance(self.origin, Expression):
+            return _Read(value, self.origin, self.scope)
         scope = self.scope.at((*self.scope.path, index), self.scope.robot)
-        return _Read(value, self.written[index], scope)
+        return _Read(value, self.origin[index], scope)
 
     def row(self, lengths: Collection[int], needed: str) -> Row:
         """Return numbers, as many as one of the lengths; report anything else and return none."""
@@ -104,12 +104,12 @@ class _Read:
         return ()
 
 
-def _read(written: Nested, scope: Scope, *keys: str | int) -> _Read:
+def _read(nested: Nested, scope: Scope, *keys: str | int) -> _Read:
     inner = scope.at((*scope.path, *keys), scope.robot)
-    if isinstance(written, tuple):
-        items = tuple(_read(item, inner, index).value for index, item in enumerate(written))
-        return _Read(items, written, inner)
-    return _Read(elaboration.value(written.tree, inner), written, inner)
+    if isinstance(nested, tuple):
+        items = tuple(_read(item, inner, index).value for index, item in enumerate(nested))
+        return _Read(items, nested, inner)
+    return _Read(elaboration.value(nested.tree, inner), nested, inner)
 
 
 def _place(read: _Read) -> Row:
@@ -123,8 +123,8 @@ def _circles(read: _Read) -> tuple[Row, ...]:
 def _area(read: _Read) -> Row | None:
     """Return the corners, and report them where they are known not to lie apart."""
     corners = read.row((4,), "[x, y, x, y], two corners")
-    known = [read.scope.known(node) for node in corners if node.kind is not Kind.UNKNOWN]
-    if len(known) == 4 and None not in known and (known[0] == known[2] or known[1] == known[3]):
+    values = [read.scope.static_value(node) for node in corners if node.kind is not Kind.UNKNOWN]
+    if len(values) == 4 and None not in values and (values[0] == values[2] or values[1] == values[3]):
         read.scope.mistake("BB049", "this area has no extent: its corners do not lie apart", read.span)
     return corners
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Graph, Level, Node, needed
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import WHOLE
 from bbsd.expression.node_data import Slot
 from bbsd.expression.repetition import values_for
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared
+from bbsd.expression.syntax.mistakes import WHOLE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -67,8 +67,8 @@ def evaluate_rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapp
     )
 
 
-def _node(written: Expression, scope: Scope, path: Path) -> Node:
-    return elaboration.number(written.tree, scope.at(path))
+def _node(rate: Expression, scope: Scope, path: Path) -> Node:
+    return elaboration.number(rate.tree, scope.at(path))
 
 
 def _probabilities(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.tree import Name
+from bbsd.expression.syntax.tree import Name
 from bbsd.language.field_types import expressions_in
 from bbsd.report.figures.files import color, figure_in_file, legend, stack_panels
 from bbsd.report.figures.marks import draw_mark

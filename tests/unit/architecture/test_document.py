@@ -32,6 +32,7 @@ def assert_comes_back(architecture, text):
         assert np.array_equal(table, other)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n_actions", [1, 5, 200])
 @pytest.mark.parametrize("inputs", [(100_000,), (1000, 100), (10, 10, 10, 10, 10)])
 def test_two_large_tables_come_back_from_the_file(n_actions, inputs):
@@ -61,6 +62,7 @@ def test_a_large_table_with_few_rules_is_written_as_rules():
     assert_comes_back(architecture, text)
 
 
+@pytest.mark.slow
 def test_many_behaviors_with_many_rules_come_back():
     found = loaded(small(behaviors(60, 1, (20, 20))))
     architecture = random_architecture(found.meaning, 0)
@@ -95,6 +97,7 @@ def test_a_table_stays_one_as_it_is_written():
     assert_comes_back(architecture, text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "n_behaviors"), [(990_000, 1), (300_000, 4)])
 def test_what_no_file_can_hold_is_refused_at_its_place(size, n_behaviors):
     with pytest.raises(SpecError) as caught:

@@ -68,6 +68,7 @@ def test_a_file_that_cannot_be_written_is_reported(words, capsys):
     assert not list(Path().iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("template", Template)
 def test_a_template_is_designed_better_than_at_random(template, capsys):
     run("new", "robot", "--template", template)

@@ -40,6 +40,7 @@ def bbsd(*words, **variables):
     return subprocess.run(command, env=environment, capture_output=True, text=True, check=False).stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_a_shell_gets_a_script_that_asks_the_tool(shell):
     script = bbsd("--show-completion", shell)

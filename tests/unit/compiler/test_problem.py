@@ -45,6 +45,7 @@ def test_any_number_of_lanes_gives_the_same_bits(lanes, one_by_one):
         np.testing.assert_array_equal(getattr(together, name), getattr(one_by_one, name))
 
 
+@pytest.mark.slow
 def test_compiled_and_plain_give_the_same_bits(rich_compiled, one_by_one):
     compiled = simply_lived(rich_compiled)
     np.testing.assert_array_equal(compiled.returns, one_by_one.returns)

@@ -5,10 +5,10 @@ from typing import Any
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Graph, Level, Node, evaluate
 from bbsd.expression.kinds import Kind
-from bbsd.expression.mistakes import Mistake
 from bbsd.expression.node_data import Slot
-from bbsd.expression.parsing import parse
 from bbsd.expression.scope import Definition, Findings, PerRobot, Scope, Shared, Unusable, Value
+from bbsd.expression.syntax.mistakes import Mistake
+from bbsd.expression.syntax.parsing import parse
 
 VALUES = {"x": (1.5, -2.0, 4.0), "ok": (True, False, True), "k": (0.0, 1.0, 2.0)}
 """State of three robots."""

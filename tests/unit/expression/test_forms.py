@@ -2,7 +2,7 @@ import pytest
 
 from bbsd.expression.forms import kind_by_form
 from bbsd.expression.kinds import Kind
-from bbsd.expression.parsing import parse
+from bbsd.expression.syntax.parsing import parse
 
 
 @pytest.mark.parametrize("text", ["1", "a + b", "-a", "+a", "degrees(a)", "sum(a)", "argmin(x for x in a)"])

@@ -2,7 +2,7 @@ import pytest
 
 from bbsd.expression import elaboration
 from bbsd.expression.kinds import Kind
-from bbsd.expression.parsing import parse
+from bbsd.expression.syntax.parsing import parse
 from tests.unit.expression.scopes import marked, mistakes, scope, valued
 
 

@@ -6,10 +6,10 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Graph, Level, evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
-from bbsd.expression.parsing import parse
 from bbsd.expression.reconstruction import reconstruct
 from bbsd.expression.scope import Findings, Scope, Shared
-from bbsd.expression.text import render
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.text import render
 
 
 def scope():

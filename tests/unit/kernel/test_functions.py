@@ -95,6 +95,7 @@ ACCURACY: list[
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("function", "exact", "bound", "samplers"), ACCURACY, ids=lambda value: getattr(value, "__name__", "")
 )
@@ -387,6 +388,7 @@ def assert_same_everywhere(expression: str, xs: list[float], ys: list[float]) ->
     assert same_bits(plain, by_lanes(expression, xs, ys))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("expression", EXPRESSIONS)
 def test_special_points_give_the_same_bits_everywhere(expression: str) -> None:
     pairs = [(x, y) for x in SPECIAL for y in SPECIAL]
@@ -395,6 +397,7 @@ def test_special_points_give_the_same_bits_everywhere(expression: str) -> None:
         assert_same_everywhere(expression, list(xs), list(ys))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("expression", EXPRESSIONS)
 def test_any_number_gives_the_same_bits_everywhere(expression: str) -> None:
     number = st.one_of(st.floats(), st.floats(-10, 10), st.floats(-1e6, 1e6))
@@ -408,6 +411,7 @@ def test_any_number_gives_the_same_bits_everywhere(expression: str) -> None:
     agree()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("expression", EXPRESSIONS)
 def test_a_loop_over_lanes_is_vectorized(expression: str) -> None:
     by_lanes(expression, [1.0], [1.0])

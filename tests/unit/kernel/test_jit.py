@@ -64,6 +64,7 @@ print(len(library["clamp_index"].signatures))
 """
 
 
+@pytest.mark.slow
 def test_the_library_is_compiled_once_for_all_kernels_whatever_literals_they_call_it_with(
     tmp_path: Path,
 ) -> None:
@@ -94,12 +95,14 @@ def test_the_user_s_own_numba_cache_stays_where_it_was() -> None:
     assert before == vars(numba.config)["CACHE_DIR"]
 
 
+@pytest.mark.slow
 def test_another_process_finds_the_compiled_code(tmp_path: Path) -> None:
     (tmp_path / "callee.py").write_text(callee(step=1, size=1))
     (tmp_path / "caller.py").write_text(CALLER)
     assert [run("import caller", tmp_path), run("import caller", tmp_path)] == [["4", "0"], ["4", "1"]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changed", "total"), [({"step": 2, "size": 1}, "5"), ({"step": 1, "size": 10}, "40")]
 )
@@ -113,6 +116,7 @@ def test_a_changed_callee_or_constant_of_another_file_is_noticed(
     assert run("import caller", tmp_path) == [total, "0"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", ["", "import numba; "], ids=["bbsd first", "numba first"])
 def test_numba_s_configuration_in_the_working_folder_is_not_read(tmp_path: Path, first: str) -> None:
     (tmp_path / ".numba_config.yaml").write_text('opt: "0"\ncache_dir: elsewhere\n')
@@ -123,6 +127,7 @@ def test_numba_s_configuration_in_the_working_folder_is_not_read(tmp_path: Path,
     ]
 
 
+@pytest.mark.slow
 def test_a_broken_configuration_in_the_working_folder_does_no_harm(tmp_path: Path) -> None:
     (tmp_path / ".numba_config.yaml").write_text("{")
     assert run("from bbsd.kernel.jit import jit; print(jit(lambda x: x + 1)(1))", tmp_path) == ["2"]
@@ -137,6 +142,7 @@ def test_the_widest_vectors_are_used() -> None:
     assert with_widest_vectors("+avx2,+avx512f") == "+avx2,+avx512f,-prefer-256-bit"
 
 
+@pytest.mark.slow
 def test_the_user_s_own_features_are_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NUMBA_CPU_FEATURES", "+sse2")
     program = "from bbsd.kernel.jit import jit; import numba; print(numba.config.CPU_FEATURES, jit(lambda x: x + 1)(1))"

@@ -29,6 +29,7 @@ def assert_gone(process):
         time.sleep(0.05)
 
 
+@pytest.mark.slow
 def test_what_is_submitted_is_done_in_another_process():
     with waiting_processes(1) as processes:
         worker = processes.submit(os.getpid).result()
@@ -47,6 +48,7 @@ with waiting_processes(1) as processes:
 """
 
 
+@pytest.mark.slow
 def test_a_temporary_cache_is_reported_once_and_is_the_workers_too(tmp_path):
     (tmp_path / "file").touch()
     environment = {**os.environ, "BBSD_CACHE_DIR": str(tmp_path / "file")}
@@ -59,6 +61,7 @@ def test_a_temporary_cache_is_reported_once_and_is_the_workers_too(tmp_path):
     assert done.stderr.count("cannot keep compiled code") == 1
 
 
+@pytest.mark.slow
 def test_a_worker_ignores_interrupts():
     with waiting_processes(1) as processes:
         worker = processes.submit(os.getpid).result()
@@ -74,6 +77,7 @@ def test_without_a_parent_that_wants_it_a_worker_stops_wherever_it_is():
             forever.result()
 
 
+@pytest.mark.slow
 def test_what_was_dismissed_does_what_was_submitted_before():
     with waiting_processes(1) as processes:
         answer = processes.submit(pow, 2, 10)

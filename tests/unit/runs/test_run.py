@@ -44,6 +44,7 @@ def uninterrupted(tmp_path_factory):
     return whole(*guess(lanes=5), tmp_path_factory.mktemp("run") / "c")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", range(1, 11))
 def test_resuming_after_any_generation_changes_no_bit(at, uninterrupted, tmp_path):
     assert whole(*guess(lanes=5), tmp_path / "c", at=at) == uninterrupted

@@ -36,6 +36,7 @@ def plain(architectures):
     return [([*map(list, each.tables)], each.structure.tolist()) for each in architectures]
 
 
+@pytest.mark.slow
 def test_runs_side_by_side_have_the_answers_and_records_of_runs_one_after_the_other(command):
     alone, together, told = command("alone"), command("together"), []
     found = side_by_side(together, [*range(RUNS)], 2, told.append)
@@ -45,6 +46,7 @@ def test_runs_side_by_side_have_the_answers_and_records_of_runs_one_after_the_ot
         assert [line for line in told if line["run"] == run + 1] == alone.records(run).lines()
 
 
+@pytest.mark.slow
 def test_workers_that_are_ready_are_taken_also_where_they_are_more_than_needed(command):
     alone, together = command("alone"), command("together")
     with waiting_processes(2) as ready:

@@ -7,7 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Inputs, Table
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
 

@@ -10,7 +10,7 @@ from math import prod
 from string import ascii_letters
 from typing import TYPE_CHECKING
 
-from bbsd.expression.tree import Span
+from bbsd.expression.syntax.tree import Span
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Table
 
 if TYPE_CHECKING:

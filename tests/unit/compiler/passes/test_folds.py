@@ -20,8 +20,8 @@ def few(monkeypatch):
 
 def each(nodes, *known):
     families = Families(RobotGraph(len(nodes)), frozenset())
-    families.know(known)
-    return families.each(nodes)
+    families.register(known)
+    return families.make_family(nodes)
 
 
 def test_a_sum_over_the_others_is_folded_in_a_loop(graph):
@@ -80,6 +80,6 @@ def test_few_are_written_out(graph, monkeypatch):
 def test_two_folds_of_the_same_are_one(graph):
     nodes = sums(graph, lambda i, j: distance(graph, i, j))
     families = Families(RobotGraph(len(nodes)), frozenset())
-    assert families.each(nodes) is families.each(list(nodes))
+    assert families.make_family(nodes) is families.make_family(list(nodes))
     half = [graph.apply("*", node, graph.leaf("step", None, Kind.NUMBER, Level.STEP)) for node in nodes]
-    assert families.each(half).operands[0] is families.each(nodes)
+    assert families.make_family(half).operands[0] is families.make_family(nodes)

@@ -5,9 +5,9 @@ import pytest
 from bbsd.compiler.passes.pairs import (
     Chain,
     Pairs,
-    chain_of,
+    chain_before,
     chain_to,
-    of_pairs,
+    nodes_of_pairs,
     previous_link,
     robot_of_slot,
 )
@@ -87,13 +87,13 @@ def test_of_a_robot_that_nobody_looks_at_any_literal_will_do_but_no_other_value(
     of = of_others(lambda _, j: graph.apply("-", x(graph, j), graph.number(j)))
     rest = Pairs(tuple(row[1:] for row in of.rows), others=True, first=1)
     assert rest.by_robot() is None
-    assert rest.of(1).by_robot() == [graph.number(robot) for robot in (2, 1, 2, 3, 4)]
+    assert rest.operand(1).by_robot() == [graph.number(robot) for robot in (2, 1, 2, 3, 4)]
 
 
 def test_pairs_are_alike_as_one_operation_on_operands(graph):
     of = of_others(lambda i, j: distance(graph, i, j))
     assert of.are_alike()
-    assert of.of(0) == of_others(lambda _, j: x(graph, j))
+    assert of.operand(0) == of_others(lambda _, j: x(graph, j))
     assert not of_others(lambda _, j: x(graph, j)).are_alike()
     assert not of_others(lambda i, j: graph.apply("+" if j else "-", x(graph, j), x(graph, i))).are_alike()
 
@@ -118,18 +118,18 @@ def test_an_argmin_is_a_chain_of_choices_that_needs_another_one(graph):
     chain = chain_to(chosen, 4, others=True)
     assert chain.terms == of_others(lambda _, j: graph.number(j))
     assert chain.conditions.first == 1
-    before = chain.conditions.of(1)
-    least = chain_of(before)
+    before = chain.conditions.operand(1)
+    least = chain_before(before)
     assert least.links.rows == before.rows
     assert least.terms.rows == tuple(row[:3] for row in of_others(lambda i, j: distance(graph, i, j)).rows)
 
 
 def test_what_comes_before_is_a_chain_only_link_by_link(graph):
     chosen = best(graph, lambda i, j: distance(graph, i, j), graph.number)
-    before = chain_to(chosen, 4, others=True).conditions.of(1)
+    before = chain_to(chosen, 4, others=True).conditions.operand(1)
     (first, second, *more), *rest = before.rows
-    assert chain_of(Pairs(((second, first, *more), *rest), others=True, first=1)) is None
-    assert chain_of(Pairs(before.rows, others=True, first=0)) is None
+    assert chain_before(Pairs(((second, first, *more), *rest), others=True, first=1)) is None
+    assert chain_before(Pairs(before.rows, others=True, first=0)) is None
     assert previous_link(second, "select") is first
     assert previous_link(second, "+") is None
 
@@ -145,4 +145,7 @@ def test_the_beginning_of_a_chain_begins_it(graph):
 def test_a_loop_over_pairs_computes_only_what_changes_with_the_pair(graph):
     theirs = graph.make("theirs", (x(graph, 0),), True, Kind.NUMBER, Level.PAIR)
     own = graph.apply("+", x(graph, 0), graph.number(1))
-    assert {node.operation for node in of_pairs([graph.apply("*", theirs, own), own])} == {"*", "theirs"}
+    assert {node.operation for node in nodes_of_pairs([graph.apply("*", theirs, own), own])} == {
+        "*",
+        "theirs",
+    }

@@ -37,7 +37,7 @@ def test_the_same_is_the_same_node(robots):
 def test_a_draw_of_the_team_has_one_word(robots):
     graph = robots.graph
     drawn = graph.draw("normal", 5, (graph.number(0), graph.number(1)))
-    again = robots.again([drawn], drawn.operands)
+    again = robots.copy([drawn], drawn.operands)
     assert (again.data, again.level) == (("normal", 5), Level.LANE)
 
 
@@ -48,4 +48,4 @@ def test_literals_and_leaves_are_made_again_as_they_are(robots):
         graph.truth(value=True),
         graph.leaf("constant", 3, Kind.NUMBER, Level.CALL),
     ):
-        assert robots.again([node], []) is node
+        assert robots.copy([node], []) is node

@@ -274,6 +274,7 @@ PAIRS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lanes", [1, 2])
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_loops_change_no_bit(case, lanes):
@@ -286,6 +287,7 @@ def paired(monkeypatch):
     monkeypatch.setattr(folds, "MOST_PAIRS_WRITTEN_OUT", 4)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("paired")
 @pytest.mark.parametrize("robots", [6, 9])
 @pytest.mark.parametrize("case", PAIRS.values(), ids=PAIRS)
@@ -293,6 +295,7 @@ def test_loops_over_pairs_change_no_bit(case, robots):
     assert_loops_change_no_bit(moving(robots=robots, lanes=2, **case))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("paired")
 def test_loops_over_pairs_are_compiled_to_the_same_bits():
     case = {"robots": 7, "lanes": 8, **PAIRS["the nearest and the farthest"]}
@@ -304,6 +307,7 @@ def test_loops_over_pairs_are_compiled_to_the_same_bits():
 WRITTEN_OUT = {"roles among them", "draws for each", "folds of three robots"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [case for case in PAIRS if case not in WRITTEN_OUT])
 def test_the_source_does_not_grow_with_the_number_of_robots_that_look_at_one_another(case):
     few, many = (
@@ -332,11 +336,13 @@ def test_a_literal_of_the_robot_looked_at_is_read_before_the_lanes():
     assert lines[place + 2].startswith("for lane in range(")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [RICH, shipped("pursuit"), shipped("object_lifting")])
 def test_loops_change_no_bit_of_larger_specs(text):
     assert_loops_change_no_bit(problem_of(text, lanes=2), n_agents=3)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(
     specs(most_robots=6), st.integers(0, 2**32), st.sampled_from([1, 2]), st.integers(1, 3), st.integers(2, 8)
@@ -363,6 +369,7 @@ def test_a_decision_with_as_many_terms_as_robots_does_not_meet_the_folds_of_its_
     assert_loops_change_no_bit(problem)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("paired")
 def test_folds_within_folds_may_be_deep():
     for length in range(1, 36):
@@ -382,6 +389,7 @@ def test_long_sums_of_a_robot_s_own_are_not_taken_for_folds_again_and_again():
     assert "for pair in" not in source_with(problem, MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,))
 
 
+@pytest.mark.slow
 def test_loops_are_compiled_to_the_same_bits():
     text = RICH.replace("robots: 3", "robots: 5").replace("chart[robot][n]", "chart[robot % 2][n]")
     compiled, plain = problem_of(text, lanes=8, compiled=True), problem_of(text, lanes=8)
@@ -398,6 +406,7 @@ def test_few_robots_are_written_out(robots):
     assert (loop_over_robots(problem.meaning) is problem.meaning) is (robots <= MOST_ROBOTS_WRITTEN_OUT)
 
 
+@pytest.mark.slow
 def test_the_source_does_not_grow_with_the_number_of_robots():
     few, many = (
         source_with(moving(robots=robots, **CASES["folds"]), MOST_ROBOTS_WRITTEN_OUT, (Detail.CREDIT,))

@@ -90,6 +90,7 @@ COMPARED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robots", [1, 2, 5])
 @pytest.mark.parametrize("how", COMPARED)
 def test_comparisons_need_no_arctangent_and_change_no_bit(how, robots):
@@ -100,6 +101,7 @@ def test_comparisons_need_no_arctangent_and_change_no_bit(how, robots):
     assert not uncertain
 
 
+@pytest.mark.slow
 def test_lifting_computes_no_arctangent_in_its_steps_and_changes_no_bit():
     problem = problem_of(shipped("object_lifting"), lanes=16, compiled=True)
     assert arctangents_of_a_step(problem) == 0
@@ -195,7 +197,7 @@ def test_one_uncertain_comparison_among_many_lanes_in_one_of_several_threads(unc
     pools = (np.repeat(choices[:, np.newaxis], 2, axis=1), np.zeros((160, 1), np.uint8))
     members = np.stack([np.arange(160), np.arange(160)], axis=1)
     team = problem.assemble(pools, members, 1)
-    assert len(team._spans()) == 2
+    assert len(problem.kernels._spans(160)) == 2
     returns = team.episode(np.arange(160, dtype=np.uint64), np.tile([1, 0], (160, 1))).returns
     assert returns.tolist() == [0.0 if lane == uncertain_lane else 1500.0 for lane in range(160)]
     assert team._uncertain is (uncertain_lane is not None)
@@ -267,6 +269,7 @@ def test_comparisons_at_the_start_are_made_with_arctangents(robots):
         assert swift == detailed
 
 
+@pytest.mark.slow
 def test_thousands_of_comparisons_do_not_nest():
     problem = swaying(robots=1, y="y / 2", reward="sum(1 if atan(x * k) > 0.1 else 0 for k in range(4000))")
     assert (

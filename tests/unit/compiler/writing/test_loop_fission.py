@@ -4,7 +4,7 @@ import pytest
 
 from bbsd.compiler.details import Detail
 from bbsd.compiler.writing.blocks import Assignment, Block, Comment
-from bbsd.compiler.writing.loop_fission import LONGEST, loops
+from bbsd.compiler.writing.loop_fission import LONGEST_LOOP, split_loop
 from bbsd.compiler.writing.precedence import COMPARISON, Text, call, name_text
 from bbsd.compiler.writing.rollout_function import RolloutFunction
 from bbsd.expression.graph import Level
@@ -49,13 +49,13 @@ def store(source, *uses):
 
 def test_a_short_block_is_one_loop(function):
     block = block_of([START, *chain(1, 5), store("n5", "n5")])
-    assert loops(block, function) == [block.lines]
+    assert split_loop(block, function) == [block.lines]
     assert function.memory.numbers == []
 
 
 def test_what_one_loop_computes_and_another_needs_is_kept(function):
     block = block_of([START, *chain(1, 15), ACT, store("n15 + n3", "n15", "n3")])
-    first, second = loops(block, function)
+    first, second = split_loop(block, function)
     assert first == [*block.lines[:16], "n3_kept[lane] = n3", "n15_kept[lane] = n15"]
     assert second == [
         "n3 = n3_kept[lane]",
@@ -69,7 +69,7 @@ def test_what_one_loop_computes_and_another_needs_is_kept(function):
 def test_an_expensive_function_has_a_loop_of_its_own(function):
     angle = definition("angle", call("atan", [name_text("n15")]))
     block = block_of([START, *chain(1, 15), angle, store("angle", "angle")])
-    assert [[line for line in part if "kept" not in line][-1] for part in loops(block, function)] == [
+    assert [[line for line in part if "kept" not in line][-1] for part in split_loop(block, function)] == [
         "n15 = n14 + 1.0",
         "angle = atan(n15)",
         "x[lane] = angle",
@@ -84,7 +84,7 @@ def test_truths_cross_as_numbers_and_cells_as_integers(function):
     ]
     last = store("select(holds, n15, y[cell])", "holds", "n15", "cell")
     block = block_of([*definitions, *chain(1, 15), ACT, last])
-    first, second = loops(block, function)
+    first, second = split_loop(block, function)
     assert "holds_kept[lane] = select(holds, 1.0, 0.0)" in first
     assert "holds = holds_kept[lane] != 0.0" in second
     assert "cell = cell_kept[lane]" in second
@@ -92,8 +92,8 @@ def test_truths_cross_as_numbers_and_cells_as_integers(function):
 
 
 def test_a_very_long_block_is_cut_anywhere(function):
-    block = block_of([START, *chain(1, 3 * LONGEST)])
-    parts = loops(block, function)
+    block = block_of([START, *chain(1, 3 * LONGEST_LOOP)])
+    parts = split_loop(block, function)
     assert len(parts) > 2
     assert [line for part in parts for line in part if "kept" not in line] == block.lines
 
@@ -101,7 +101,7 @@ def test_a_very_long_block_is_cut_anywhere(function):
 def test_all_parts_together_compute_what_the_block_does(function):
     block = block_of([START, *chain(1, 150), store("n150 - n7", "n150", "n7")])
     names = {"x": [float(lane) for lane in range(4)]}
-    parts = loops(block, function)
+    parts = split_loop(block, function)
     kept = {name: [0.0] * 4 for name in function.memory.numbers}
     for part in parts:
         for lane in range(4):
@@ -113,7 +113,7 @@ def test_what_other_blocks_computed_is_read_where_it_is_needed(function):
     last = store("n0_elsewhere + n15", "n0_elsewhere", "n15")
     block = block_of([START, *chain(1, 15), ACT, last])
     block.read = {"n0_elsewhere": "n0_elsewhere_kept[lane]", "never": "never_kept[lane]"}
-    first, second = loops(block, function)
+    first, second = split_loop(block, function)
     assert not any("elsewhere" in line for line in first)
     assert second[:2] == ["n0_elsewhere = n0_elsewhere_kept[lane]", "n15 = n15_kept[lane]"]
     assert not any("never" in line for line in (*first, *second))
@@ -122,7 +122,7 @@ def test_what_other_blocks_computed_is_read_where_it_is_needed(function):
 def test_what_other_blocks_need_is_kept_once(function):
     block = block_of([START, *chain(1, 15), ACT, store("n15 + n3", "n15", "n3")])
     block.kept = {"n3": function.keep("n3_for_all"), "n9": function.keep("n9_for_all")}
-    first, second = loops(block, function)
+    first, second = split_loop(block, function)
     assert first[-3:] == ["n3_for_all[lane] = n3", "n9_for_all[lane] = n9", "n15_kept[lane] = n15"]
     assert second[:2] == ["n3 = n3_for_all[lane]", "n15 = n15_kept[lane]"]
 
@@ -133,7 +133,7 @@ def test_a_loop_reads_at_most_two_other_robots(function):
         for number, seen in enumerate((1, 2, 1, 3, 2, 4))
     )
     block.robots_seen = {f"seen_{number}" for number in (1, 2, 3, 4)}
-    parts = loops(block, function)
+    parts = split_loop(block, function)
     assert [[line.split("[")[1][:6] for line in part] for part in parts] == [
         ["seen_1", "seen_2", "seen_1"],
         ["seen_3", "seen_2"],
@@ -149,12 +149,12 @@ def test_no_loop_is_without_work(function, before):
     many = definition("n0", text("x[seen_1 + lane] + x[seen_2 + lane] + x[seen_3 + lane]", *seen))
     block = block_of([*before, many, store("n0", "n0")])
     block.robots_seen = seen
-    parts = loops(block, function)
+    parts = split_loop(block, function)
     assert parts[0][: len(before) + 1] == [statement.line for statement in (*before, many)]
 
 
 def test_only_what_a_statement_uses_crosses_and_not_what_a_comment_mentions(function):
     before = [definition("reward", text("x[lane]")), *chain(1, 15)]
     block = block_of([START, *before, ACT, Comment("The reward."), store("n15", "n15")])
-    loops(block, function)
+    split_loop(block, function)
     assert function.memory.numbers == ["n15_kept"]

@@ -208,7 +208,7 @@ def test_draws_are_named_once_a_robot(function, robots):
     graph = robots.graph
     bounds = graph.number(0), slot(robots, "x")
     family = [graph.draw("uniform", word, bounds) for word in (1, 2, 3, 4)]
-    written = Written(function, robots.again(family, bounds), at=1)
+    written = Written(function, robots.copy(family, bounds), at=1)
     assert written.texts == ["uniform(key[lane], draw_1, 0.0, x[own + lane])"]
     assert written.blocks.robot(1).lines == ["draw_1 = fold(BY_ROBOT_1[robot], word_of(step))"]
     [words] = function.tables
@@ -218,18 +218,18 @@ def test_draws_are_named_once_a_robot(function, robots):
 def test_elements_of_the_constants_are_read_from_each_robot_s_base(function, robots):
     graph, x = robots.graph, slot(robots, "x")
     family = [graph.gather(base, (3,), (4,), (x,)) for base in (0, 12, 24, 36)]
-    written = Written(function, robots.again(family, (x,)), at=1)
+    written = Written(function, robots.copy(family, (x,)), at=1)
     assert written.texts == ["constants[BY_ROBOT_1[robot] + 3 * clamp_index(x[own + lane], 3)]"]
 
 
 def test_what_a_slot_holds_now_crosses_to_where_it_is_stored(function, robots):
     emitter = emitter_of(function, [], hinted=False)
     now, later = emitter.blocks.stage(1), emitter.blocks.stage(3)
-    assert emitter.copied(slot(robots, "x"), "next_y", now, later).source == "next_y"
+    assert emitter.copy(slot(robots, "x"), "next_y", now, later).source == "next_y"
     assert now.lines == ["next_y = x[own + lane]"]
     assert now.kept == {"next_y": "next_y_kept"}
     assert later.read == {"next_y": "next_y_kept[own + lane]"}
-    assert emitter.copied(slot(robots, "x"), "next_z", now, now).source == "next_z"
+    assert emitter.copy(slot(robots, "x"), "next_z", now, now).source == "next_z"
     assert "next_z" not in now.kept
 
 

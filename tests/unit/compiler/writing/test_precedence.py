@@ -11,7 +11,7 @@ from bbsd.compiler.writing.precedence import (
     call,
     grouped,
     infix,
-    joined,
+    join,
     name_text,
     number_text,
     sum_of,
@@ -55,7 +55,7 @@ def test_sums_leave_zeros_out():
 def test_a_text_knows_the_names_that_it_uses():
     both = call("minimum", [infix("+", A, times(2, B)), Text("x[lane]"), A])
     assert both == ("minimum(a + 2 * b, x[lane], a)", ATOM, {"a", "b"}, False)
-    assert joined("&", [A, B, C]).uses == {"a", "b", "c"}
+    assert join("&", [A, B, C]).uses == {"a", "b", "c"}
     assert number_text(math.inf).uses == frozenset()
 
 

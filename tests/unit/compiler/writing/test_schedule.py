@@ -4,7 +4,7 @@ import pytest
 
 from bbsd.compiler.passes.robot_graph import RobotGraph
 from bbsd.compiler.writing.blocks import Block, Blocks
-from bbsd.compiler.writing.schedule import closing, first_stage_with, stages
+from bbsd.compiler.writing.schedule import closing_of, first_stage_with, stages_of
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
@@ -30,14 +30,14 @@ def step(robots):
 
 
 def stage_of(node):
-    return stages([node], DECIDED)[node.number]
+    return stages_of([node], DECIDED)[node.number]
 
 
 def test_without_loops_over_robots_all_is_in_one(robots):
     graph = robots.graph
     choice = graph.leaf("choice", 0, Kind.CELL, Level.LANE)
     value = graph.apply("*", graph.apply("+", wind(robots), step(robots)), graph.number(2))
-    assert set(stages([value, choice], 0).values()) == {0}
+    assert set(stages_of([value, choice], 0).values()) == {0}
 
 
 def test_what_needs_only_slots_is_in_the_first_stage(robots):
@@ -92,7 +92,7 @@ def test_values_that_have_nothing_in_common_are_there_when_the_last_one_is(robot
 def test_where_all_of_some_values_are_known(robots):
     graph = robots.graph
     total, nodes = robots.over(x(robots), "+"), [wind(robots), x(robots)]
-    found = stages([total, *nodes], DECIDED)
+    found = stages_of([total, *nodes], DECIDED)
     assert first_stage_with([], found, Level.LANE) == 0
     assert first_stage_with([], found, Level.EACH) == 1
     assert first_stage_with(nodes[:1], found, Level.LANE) == 0
@@ -107,7 +107,7 @@ def test_a_step_ends_where_all_is_known_and_then_stores(robots):
         robots.graph.apply("-", x(robots), robots.over(x(robots), "+")),
     )
     outputs = [gap, wind(robots)]
-    end = closing(blocks, stages(outputs, DECIDED), outputs)
+    end = closing_of(blocks, stages_of(outputs, DECIDED), outputs)
     assert [block.stage for block in (end.each, end.team, end.store_each, end.store_team)] == [3, 4, 5, 6]
     assert [block.level for block in (end.each, end.team)] == [Level.EACH, Level.LANE]
     assert end.knowing(own=True) is end.each
@@ -118,7 +118,7 @@ def test_a_step_ends_where_all_is_known_and_then_stores(robots):
 
 def test_without_loops_over_robots_a_step_ends_where_it_begins(robots):
     blocks = Blocks(Block(Level.CALL), looped=False)
-    end = closing(blocks, stages([wind(robots)], 0), [wind(robots)])
+    end = closing_of(blocks, stages_of([wind(robots)], 0), [wind(robots)])
     assert end.each is end.team is end.store_each is end.store_team is blocks.stage(0)
 
 

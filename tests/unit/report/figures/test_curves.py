@@ -23,6 +23,7 @@ def metrics(runs, generations=4):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
 def test_the_same_metrics_give_the_same_bytes(tmp_path, suffix):
     first, second = tmp_path / f"first{suffix}", tmp_path / f"second{suffix}"

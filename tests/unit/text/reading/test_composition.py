@@ -76,6 +76,7 @@ def test_aliases_cannot_expand_beyond_the_bound() -> None:
     assert codes("\n".join(lines)) == ["BB011"]
 
 
+@pytest.mark.slow
 def test_the_bound_of_values_is_exact() -> None:
     fitting = MAX_NODES - 3  # the mapping, its key, the list
     assert codes("a: [" + "1," * fitting + "]") == []

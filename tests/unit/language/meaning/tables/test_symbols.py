@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bbsd.expression.scope import Findings
-from bbsd.expression.tree import Span
+from bbsd.expression.syntax.tree import Span
 from bbsd.language.meaning.behaviors import MAX_ACTIONS
 from bbsd.language.meaning.tables.symbols import SYMBOLS, filled_text, table_of_text, text_of_table
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL

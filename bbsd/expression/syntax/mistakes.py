@@ -1,15 +1,15 @@
-"""What can be said of a mistake inside an expression, before anyone knows the file it stands in."""
+"""Mistakes in expressions, placed relative to the expression: its file is not known here."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bbsd.expression.tree import Span
+from bbsd.expression.syntax.tree import Span
 
 WHOLE = Span(0, 0)
-"""Stands for a value as a whole, whatever it is written as."""
+"""The span of a whole value, however it is written."""
 KEY = Span(-1, 0)
-"""Stands for the key of a value."""
+"""The span of the key of a value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,4 +31,4 @@ class ExpressionError(ValueError):
 
 
 class TooManyMistakesError(Exception):
-    """So much is wrong that no more needs to be looked for."""
+    """There are so many mistakes that no more are searched."""

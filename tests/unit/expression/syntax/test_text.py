@@ -5,15 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.expression.parsing import MAX_DEPTH, parse
-from bbsd.expression.text import number_text, render
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.parsing import MAX_DEPTH, parse
+from bbsd.expression.syntax.text import number_text, render
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -53,7 +53,7 @@ def _larger(parts: st.SearchStrategy[Expr]) -> st.SearchStrategy[Expr]:
             )
         ),
         st.tuples(parts, parts).map(
-            lambda found: Call("sum", (Each(found[0], ("v", "w"), found[1], NOWHERE),), NOWHERE)
+            lambda found: Call("sum", (Generator(found[0], ("v", "w"), found[1], NOWHERE),), NOWHERE)
         ),
     )
 

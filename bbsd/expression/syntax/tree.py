@@ -1,4 +1,4 @@
-"""The parts of an expression, each with the span of text it was written in."""
+"""The syntax tree of expressions; each part has the span of text in which it is written."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class Index:
 
 
 @dataclass(frozen=True, slots=True)
-class Each:
+class Generator:
     """`element for names in source`, the only argument of an aggregate."""
 
     element: Expr
@@ -112,11 +112,11 @@ class Each:
     span: Span
 
 
-Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Conditional | Call | Index | Each
+Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Conditional | Call | Index | Generator
 
 
 def parts(expr: Expr) -> tuple[Expr, ...]:
-    """The expressions that `expr` is directly made of, in the order they are written."""
+    """Return the direct parts of an expression in the order in which they are written."""
     match expr:
         case Number() | Truth() | Name():
             return ()
@@ -132,25 +132,25 @@ def parts(expr: Expr) -> tuple[Expr, ...]:
             return arguments
         case Index(of=of, index=index):
             return (of, index)
-        case Each(element=element, source=source):
+        case Generator(element=element, source=source):
             return (element, source)
 
 
 def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[str]:
-    """All names and called functions in `expr` that it does not itself bind."""
+    """Return all names and called functions in an expression that it does not bind itself."""
     match expr:
         case Name(name=name):
             return frozenset({name}) - hidden
         case Call(function=function, arguments=arguments):
             return (frozenset({function}) - hidden).union(*(names_used(part, hidden) for part in arguments))
-        case Each(element=element, names=names, source=source):
+        case Generator(element=element, names=names, source=source):
             return names_used(source, hidden) | names_used(element, hidden | frozenset(names))
         case _:
             return frozenset().union(*(names_used(part, hidden) for part in parts(expr)))
 
 
-def frames(expr: Expr) -> int:
-    """How deep Python's stack gets, at most, while an expression is elaborated, not counting what its names need."""
+def stack_depth(expr: Expr) -> int:
+    """Return the most frames on Python's stack while an expression is elaborated, without those for its names."""
     match expr:
         case Number() | Truth() | Name():
             return 1
@@ -158,8 +158,8 @@ def frames(expr: Expr) -> int:
             own = 7
         case Logical():
             own = 4
-        case Each():
+        case Generator():
             own = 0
         case _:
             own = 3
-    return own + max((frames(part) for part in parts(expr)), default=0)
+    return own + max((stack_depth(part) for part in parts(expr)), default=0)

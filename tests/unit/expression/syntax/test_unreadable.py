@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.expression.unreadable import culprit
+from bbsd.expression.syntax.unreadable import find_culprit
 
 
 @pytest.mark.parametrize(
@@ -14,7 +14,7 @@ from bbsd.expression.unreadable import culprit
     ],
 )
 def test_signs_of_other_languages(text: str, place: int, advice: str) -> None:
-    start, length, told = culprit(text, 0)
+    start, length, told = find_culprit(text, 0)
     assert (start, told) == (place, advice)
     assert text[start : start + length] in ("=", "&&", "||", "!")
 
@@ -30,8 +30,8 @@ def test_signs_of_other_languages(text: str, place: int, advice: str) -> None:
     ],
 )
 def test_brackets_without_a_partner(text: str, place: int, advice: str) -> None:
-    assert culprit(text, 0) == (place, 1, advice)
+    assert find_culprit(text, 0) == (place, 1, advice)
 
 
 def test_otherwise_the_place_is_where_the_parser_stumbled() -> None:
-    assert culprit("a b", 2) == (2, 0, "")
+    assert find_culprit("a b", 2) == (2, 0, "")

@@ -1,14 +1,14 @@
-"""A tree back to text that parses to the same tree, with no more parentheses than it needs."""
+"""Tree to text, which parses to the same tree and has no more parentheses than it needs."""
 
 from __future__ import annotations
 
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -35,12 +35,12 @@ SIGN, POWER, ATOM = 7, 8, 9
 
 
 def number_text(value: float) -> str:
-    """The shortest text of a number; whole numbers without a point."""
+    """Return the shortest text of a number; whole numbers have no point."""
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
 
 def render(expr: Expr) -> str:
-    """The text of an expression."""
+    """Return the text of an expression."""
     return _render(expr)[0]
 
 
@@ -87,6 +87,6 @@ def _render(expr: Expr) -> tuple[str, int]:
             return f"{function}({', '.join(_render(argument)[0] for argument in arguments)})", ATOM
         case Index(of=of, index=index):
             return f"{_at_least(of, ATOM)}[{_render(index)[0]}]", ATOM
-        case Each(element=element, names=names, source=source):
+        case Generator(element=element, names=names, source=source):
             text = f"{_at_least(element, 0)} for {', '.join(names)} in {_at_least(source, LEVELS['or'])}"
             return text, LEVELS["if"]

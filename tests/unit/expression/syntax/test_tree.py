@@ -3,8 +3,8 @@ import sys
 import pytest
 
 from bbsd.expression import elaboration
-from bbsd.expression.parsing import parse
-from bbsd.expression.tree import frames, names_used, parts
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.tree import names_used, parts, stack_depth
 from tests.unit.expression.scopes import scope
 
 
@@ -35,7 +35,7 @@ def test_no_expression_takes_more_frames_than_it_is_said_to(text: str) -> None:
     limit = sys.getrecursionlimit()
     try:
         # 30 frames for what any expression needs: the entry, the parts' checks, the graph's own functions.
-        sys.setrecursionlimit(used + frames(tree) + 30)
+        sys.setrecursionlimit(used + stack_depth(tree) + 30)
         elaboration.value(tree, here)
     finally:
         sys.setrecursionlimit(limit)

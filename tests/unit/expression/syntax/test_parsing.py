@@ -2,14 +2,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.expression.mistakes import ExpressionError, Mistake
-from bbsd.expression.parsing import MAX_DEPTH, MAX_LENGTH, parse
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
+from bbsd.expression.syntax.parsing import MAX_DEPTH, MAX_LENGTH, parse
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
     Conditional,
-    Each,
+    Generator,
     Index,
     Logical,
     Name,
@@ -25,6 +25,7 @@ def refused(text: str) -> Mistake:
     return caught.value.mistake
 
 
+@pytest.mark.slow
 @given(st.one_of(st.text(), st.text("abx01 .()[]+-*/%<>=!&|^~,:'\"#\\{}@;ifornot\n\t", max_size=40)))
 def test_any_text_is_read_or_refused(text: str) -> None:
     try:
@@ -68,7 +69,7 @@ def test_conditionals_indices_and_generators() -> None:
     tree = parse("sum(a * x for x, y in table)")
     assert isinstance(tree, Call)
     (each,) = tree.arguments
-    assert isinstance(each, Each)
+    assert isinstance(each, Generator)
     assert each.names == ("x", "y")
 
 

@@ -7,14 +7,14 @@ import math
 import re
 import warnings
 
-from bbsd.expression.mistakes import ExpressionError, Mistake
-from bbsd.expression.tree import (
+from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
+from bbsd.expression.syntax.tree import (
     Binary,
     Call,
     Comparison,
     Conditional,
-    Each,
     Expr,
+    Generator,
     Index,
     Logical,
     Name,
@@ -23,7 +23,7 @@ from bbsd.expression.tree import (
     Truth,
     Unary,
 )
-from bbsd.expression.unreadable import EQUALITY, culprit
+from bbsd.expression.syntax.unreadable import EQUALITY, find_culprit
 from bbsd.expression.vocabulary import RESERVED
 
 MAX_LENGTH = 4000
@@ -83,9 +83,9 @@ INSTEAD = {"&": "write and", "|": "write or", "~": "write not", "^": "a power is
 
 
 def parse(text: str) -> Expr:
-    """The tree of an expression; spans count characters of `text`.
+    """Return the tree of an expression; spans count characters of `text`.
 
-    Raises ExpressionError with the first thing that is not in the grammar.
+    Raises ExpressionError for the first part that is not in the grammar.
     """
     if len(text) > MAX_LENGTH:
         raise _error(
@@ -93,8 +93,8 @@ def parse(text: str) -> Expr:
         )
     if not text.strip():
         raise _error("BB050", "an expression is missing here", 0, 1)
-    if odd := MEANINGLESS.search(text):
-        raise _error("BB050", f"the character {odd[0]!r} has no meaning in an expression", odd.start(), 1)
+    if match := MEANINGLESS.search(text):
+        raise _error("BB050", f"the character {match[0]!r} has no meaning in an expression", match.start(), 1)
     flat = re.sub(r"[\n\t]", " ", text)
     stripped = flat.lstrip(" ")
     shift = len(flat) - len(stripped)
@@ -113,8 +113,8 @@ def _python(text: str, shift: int) -> ast.expr:
 
 
 def _syntax_error(text: str, shift: int, error: SyntaxError) -> ExpressionError:
-    stumbled = min(max((error.offset or 1) - 1, 0), max(len(text) - 1, 0))
-    start, length, advice = culprit(text, stumbled)
+    failed_at = min(max((error.offset or 1) - 1, 0), max(len(text) - 1, 0))
+    start, length, advice = find_culprit(text, failed_at)
     what = text[start : start + 12].strip()
     message = "this cannot be read as an expression" + (f" from {what!r} on" if start and what else "")
     return _error("BB050", message, shift + start, length or len(what), advice)
@@ -129,7 +129,7 @@ def _is_free(name: str) -> bool:
 
 
 class _Builder:
-    """Whitelists Python's nodes and turns them into the language's own."""
+    """Turns those nodes of Python's tree that the language allows into its own."""
 
     def __init__(self, text: str, shift: int) -> None:
         self.text = text
@@ -181,7 +181,7 @@ class _Builder:
         return self.refuse(node, "BB051", f"the language does not have {REFUSED.get(type(node), 'this')}")
 
     def sign(self, node: ast.BinOp | ast.UnaryOp, symbol: str) -> int:
-        """Where an operator's sign stands."""
+        """Return the position of an operator's sign in the text."""
         left_end = node.left.end_col_offset if isinstance(node, ast.BinOp) else node.col_offset
         return self.text.index(symbol, left_end)
 
@@ -229,4 +229,4 @@ class _Builder:
         names = tuple(target.id for target in targets if isinstance(target, ast.Name) and _is_free(target.id))
         if len(names) != len(targets) or len(set(names)) != len(names):
             raise self.refuse(first.target, "BB062", "after for stand different names, like x or x, y")
-        return Each(self(node.elt, depth + 1), names, self(first.iter, depth + 1), self.span(node))
+        return Generator(self(node.elt, depth + 1), names, self(first.iter, depth + 1), self.span(node))

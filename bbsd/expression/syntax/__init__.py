@@ -1,0 +1,1 @@
+"""The syntax of expressions: text to tree, where a text cannot be read, and tree to text."""
