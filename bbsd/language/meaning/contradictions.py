@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.mistakes import KEY
+from bbsd.expression.syntax.mistakes import KEY
 
 if TYPE_CHECKING:
     from bbsd.expression.scope import Findings
