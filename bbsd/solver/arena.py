@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.compiler import Problem
+    from bbsd.evaluation import Agents
     from bbsd.solver.space import Designs
 
 
@@ -40,8 +41,12 @@ class Arena:
         Returns:
             (n_designs, count).
         """
+        return self.agents_returns(self.space.agents(designs), key, count, first)
+
+    def agents_returns(self, agents: Agents, key: int, count: int, first: int = 0) -> NDArray[np.float64]:
+        """Run agents of pools like the designs of `returns`, (n_agents, count)."""
         raise_if_stopped()
-        return returns_of(self.problem, self.space.agents(designs), keys(key, first, count), self.generation)
+        return returns_of(self.problem, agents, keys(key, first, count), self.generation)
 
     def means(self, designs: Designs, key: int, count: int) -> NDArray[np.float64]:
         """Return the mean return of each design in the same episodes of a stream, (n_designs,)."""

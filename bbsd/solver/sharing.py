@@ -80,6 +80,32 @@ def mean_of_agents(
     return fitness
 
 
+def lenient(
+    fitness: NDArray[np.float64], members: NDArray[np.int64], population: int, best: int
+) -> NDArray[np.float64]:
+    """Return for each individual the mean fitness of its best agents: partners that fail tell nothing of it.
+
+    Args:
+        fitness: the agents', (n_agents,).
+        members: (n_agents, n_behaviors).
+        population: individuals a pool.
+        best: how many agents of each individual count at most.
+
+    Returns:
+        (n_behaviors, population), -inf for an individual that was never drawn.
+    """
+    shared = np.full((members.shape[1], population), -np.inf)
+    for behavior, individuals in enumerate(members.T):
+        order = np.lexsort((-fitness, individuals))
+        sorted_individuals = individuals[order]
+        ranks = np.arange(len(order)) - np.searchsorted(sorted_individuals, sorted_individuals)
+        counted = order[ranks < best]
+        counts = np.bincount(individuals[counted], minlength=population)
+        sums = np.bincount(individuals[counted], weights=fitness[counted], minlength=population)
+        np.divide(sums, counts, out=shared[behavior], where=counts > 0)
+    return shared
+
+
 def in_order(terms: Iterable[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Return the elementwise sum of arrays, added first to last (`np.sum` chooses an order of its own)."""
     first, *others = terms

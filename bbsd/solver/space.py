@@ -72,6 +72,11 @@ class Space:
         return np.concatenate([table.given for table in self.problem.tables])
 
     @cached_property
+    def blank(self) -> NDArray[np.uint8]:
+        """The given cells, No Action where one is open, (n_cells,)."""
+        return np.where(self.given == OPEN_CELL, 0, self.given).astype(np.uint8)
+
+    @cached_property
     def open_cells(self) -> NDArray[np.int64]:
         """The indices of the cells to be designed, of behaviors that may stand in the structure, (n_open,)."""
         may_matter = np.concatenate(
@@ -110,7 +115,7 @@ class Space:
 
     def random(self, key: int, count: int) -> Designs:
         """Return so many uniformly random designs."""
-        tables = np.tile(np.where(self.given == OPEN_CELL, 0, self.given), (count, 1)).astype(np.uint8)
+        tables = np.tile(self.blank, (count, 1))
         drawn = uniforms(fold(key, CELLS), (count, len(self.open_cells)))
         tables[:, self.open_cells] = drawn * self.choices[self.open_cells]
         return Designs(tables, self.random_orders(fold(key, ORDERS), count))
@@ -154,9 +159,13 @@ class Space:
         orders.pop(structure.tobytes(), None)
         return list(orders.values())
 
+    def by_behavior(self, tables: NDArray[np.uint8]) -> tuple[NDArray[np.uint8], ...]:
+        """Return the columns of tables (n, n_cells) that belong to each behavior."""
+        return tuple(np.split(tables, self._ends, axis=1))
+
     def agents(self, designs: Designs) -> Agents:
         """Return each design as an agent of its own."""
-        pools = tuple(np.split(designs.tables, self._ends, axis=1))
+        pools = self.by_behavior(designs.tables)
         members = np.repeat(np.arange(len(designs))[:, None], len(pools), axis=1)
         return Agents(pools, members, designs.structures)
 

@@ -5,14 +5,20 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bbsd.solver.methods import hill, random_search
+from bbsd.solver.methods import cross_entropy, hill, joint, random_search, societies
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from bbsd.solver.methods.method import Method
 
-METHODS: Mapping[str, Method] = MappingProxyType(
-    {method.name: method for method in (random_search.METHOD, hill.METHOD)}
+_METHODS: tuple[Method, ...] = (
+    societies.METHOD,
+    cross_entropy.METHOD,
+    random_search.METHOD,
+    hill.METHOD,
+    joint.METHOD,
 )
+
+METHODS: Mapping[str, Method] = MappingProxyType({method.name: method for method in _METHODS})
 """The methods behind the interface, as `design.method` names them."""

@@ -9,9 +9,12 @@ from pathlib import Path
 import numpy as np
 
 import bbsd
+from bbsd.kernel.keys import keys
 from bbsd.solver.culture import Culture, draw_memes
 from bbsd.solver.estimates import update_values
 from bbsd.solver.genetics import OPEN_CELL, expected_fitness, next_pool, random_pool
+from bbsd.solver.methods.distribution import draw_choices, draw_hands
+from bbsd.solver.methods.joint import deal
 from bbsd.solver.pairing import members
 from bbsd.solver.structures import (
     OPEN,
@@ -50,6 +53,17 @@ def pools_bred(key):
     ]
 
 
+def designs_drawn(key):
+    choices = np.array([[0.2, 0.5, 0.3], [0.9, 0.1, 0.0]])
+    which = np.array([3, 0, 2**40])
+    cells, hands = np.empty((3, 2), np.uint8), np.empty((3, 2), np.int64)
+    draw_choices(np.uint64(key), which, np.cumsum(choices, axis=1), cells)
+    draw_hands(np.uint64(key), which, choices, hands)
+    children, streams = np.empty((4, 3), np.int64), keys(key, 0, 4)
+    deal(streams, np.tile([0, 2, 3], (4, 1)), np.tile([3, 1, 0], (4, 1)), 5, children)
+    return [cells, hands, children]
+
+
 def everything():
     """Results of all compiled functions, floats as hexadecimal digits."""
     culture = Culture(np.array([[0, 1], [1, 0], [2, 0]]), np.array([-5.0, -1.0, 5.0]))
@@ -57,6 +71,7 @@ def everything():
     for key in KEYS:
         results += [
             *pools_bred(key),
+            *designs_drawn(key),
             members(key, [np.zeros(4), np.zeros(3)], 10),
             draw_memes(key, culture, 10, 0.7),
         ]

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.solver.sharing import agent_fitness, contributions, lifetime_fitness, uniform, value_based
+from bbsd.solver.sharing import agent_fitness, contributions, lenient, lifetime_fitness, uniform, value_based
 
 RETURNS = np.array([[1.0, 2.0, 6.0], [0.0, -4.0, 1.0]])
 MEMBERS = np.array([[0, 2], [1, 2], [0, 0]])  # three agents of two behaviors, from pools of three
@@ -72,3 +72,15 @@ def test_when_all_agents_are_equally_fit_so_is_every_individual_that_was_drawn(s
                 if took_part
                 else shared[behavior, individual] == -np.inf
             )
+
+
+def test_lenient_fitness_is_the_mean_of_an_individual_s_best_agents():
+    members = np.array([[0, 2], [1, 2], [0, 0], [0, 2], [0, 2]])
+    shared = lenient(np.array([4.0, -1.0, 9.0, 1.0, 6.0]), members, 4, 2)
+    # the first pool's 0 was in agents of 4, 9, 1 and 6, so (9 + 6) / 2; the second one's 2 in 4, -1, 1 and 6
+    np.testing.assert_array_equal(shared, [[7.5, -1.0, -np.inf, -np.inf], [9.0, -np.inf, 5.0, -np.inf]])
+
+
+def test_lenient_fitness_of_all_agents_is_the_uniform_one():
+    fitness = np.array([4.0, -1.5, 9.0])
+    np.testing.assert_array_equal(lenient(fitness, MEMBERS, 3, 3), uniform(fitness, MEMBERS, 3))
