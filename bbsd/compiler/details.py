@@ -1,4 +1,4 @@
-"""How much a rollout reports: returns and credit alone, what an evaluation adds up, or every value of every step."""
+"""How much a rollout reports: returns and credit alone, more for an evaluation, a trace or practice."""
 
 from __future__ import annotations
 
@@ -20,6 +20,11 @@ class Detail(Enum):
     CREDIT = "rollout"
     TERMS = "rollout_detailed"
     TRACE = "rollout_traced"
+    PRACTICE = "rollout_practice"
+
+
+IN_DETAIL = frozenset({Detail.TERMS, Detail.TRACE})
+"""The rollouts that report what an evaluation adds up."""
 
 
 class Column(NamedTuple):

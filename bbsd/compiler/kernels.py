@@ -12,15 +12,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.compiler.details import Detail
+from bbsd.compiler.joint import joint_partition
 from bbsd.compiler.passes.pipeline import pipeline, run_passes
 from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
+from bbsd.compiler.steps import Steps
 from bbsd.compiler.writing.source import module_source
 from bbsd.kernel.memory import zeros
 from bbsd.kernel.modules import load_kernel
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
+    from bbsd.compiler.joint import JointPartition
     from bbsd.compiler.tables import TableShape
     from bbsd.language.meaning import Meaning
 
@@ -43,7 +46,8 @@ def kernel_source(
 ) -> str:
     """Return the source of a module with these rollouts, `lanes` episodes side by side."""
     programs = run_passes(meaning, details, pipeline(most_written_out))
-    return module_source(programs, tables, lanes)
+    joint = joint_partition(meaning.episode.modules) if Detail.PRACTICE in details else None
+    return module_source(programs, tables, lanes, joint)
 
 
 @dataclass(frozen=True)
@@ -71,6 +75,13 @@ class Kernels:
         return load_kernel(source, "trace", (), compiled=False)
 
     @cached_property
+    def _practice(self) -> Any:  # noqa: ANN401 - a generated module
+        source = kernel_source(
+            self.meaning, self.tables, self.lanes, (Detail.PRACTICE,), self.most_written_out
+        )
+        return load_kernel(source, "practice", (Detail.PRACTICE.value,), compiled=self.compiled)
+
+    @cached_property
     def rollout(self) -> Rollout:
         """The rollout that lifetimes call."""
         rollout: Rollout = self._batches.rollout
@@ -81,6 +92,17 @@ class Kernels:
         """The rollout that evaluation calls."""
         rollout: Rollout = self._batches.rollout_detailed
         return rollout
+
+    @cached_property
+    def rollout_practice(self) -> Rollout:
+        """The rollout that practice calls."""
+        rollout: Rollout = self._practice.rollout_practice
+        return rollout
+
+    @cached_property
+    def joint(self) -> JointPartition:
+        """The cells of all behaviors together that practice records."""
+        return joint_partition(self.meaning.episode.modules)
 
     @cached_property
     def _threads(self) -> ThreadPoolExecutor:
@@ -101,6 +123,47 @@ class Kernels:
         if len(spans) == 1:
             return run_span(spans[0])
         return any(list(self._threads.map(run_span, spans)))
+
+    def run_practice(
+        self, n_lanes: int, before: Sequence[object], after: Sequence[object]
+    ) -> Iterator[Steps]:
+        """Run all lanes batch by batch and yield the steps of each batch, in the order of the lanes.
+
+        What is yielded is overwritten later. As many batches as there are threads run at the same time.
+
+        Args:
+            n_lanes: a multiple of the lanes of a batch.
+            before, after: the arguments before and behind the arrays that hold a batch's steps.
+        """
+        firsts = range(0, n_lanes, self.lanes)
+        records = [self._new_steps() for _ in range(min(self.jobs, len(firsts)))]
+
+        def run_batch(first: int, steps: Steps) -> Steps:
+            with np.errstate(all="ignore"):
+                memory = zeros(self._practice.MEMORY)
+                flat = (record.reshape(-1) for record in steps[1:])
+                self.rollout_practice(first, first + self.lanes, memory, *before, *flat, *after)
+            return steps._replace(first=first)
+
+        for group in range(0, len(firsts), len(records)):
+            batches = list(zip(firsts[group:], records, strict=False))
+            if len(batches) == 1:
+                yield run_batch(*batches[0])
+            else:
+                yield from list(self._threads.map(run_batch, *zip(*batches, strict=True)))
+
+    def _new_steps(self) -> Steps:
+        """Return memory for the steps of a batch."""
+        environment, n_behaviors = self.meaning.spec.environment, len(self.tables)
+        shape = (environment.steps, environment.robots)
+        n_pairs = sum(table.n_cells * (table.n_actions + 1) for table in self.tables)
+        codes = np.int32 if 2 * n_pairs < 1 << 31 else np.int64
+        return Steps(
+            0,
+            np.empty((*shape, n_behaviors, self.lanes), codes),
+            np.empty((*shape, self.lanes), np.int32),
+            np.empty((*shape, self.lanes)),
+        )
 
     def run_traced(self, *arrays: object) -> None:
         """Run the first lane as plain Python and record every step."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from bbsd.compiler.writing.arbitration import ACTION_BITS
 
 if TYPE_CHECKING:
     from bbsd.compiler.kernels import Kernels, Rollout
+    from bbsd.compiler.steps import Steps
 
 NEVER = -(1 << 40)
 """The priority of a behavior that is not in the structure."""
@@ -21,6 +23,8 @@ NEVER = -(1 << 40)
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 Keys = npt.NDArray[np.uint64]
+Learn = Callable[["Steps", Floats], None]
+"""Learns from the steps of a batch of lanes, and how many of them each lane took."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +102,26 @@ class Team:
         arrays = self._detailed_outputs()
         self._run(self.kernels.rollout_detailed, *self._inputs(keys, structures), *arrays)
         return DetailedOutcome(*(array.T[: self.size] for array in arrays))
+
+    def practice(
+        self, keys: Keys, structures: Integers, rates: Floats, open_cells: Pool, learn: Learn
+    ) -> Floats:
+        """Run one episode of each agent that strays from its tables, and return the returns (n_agents,).
+
+        Args:
+            keys: name each episode's random streams, (n_agents,).
+            structures: lowest layer first, (n_agents, n_layers).
+            rates: how often a robot of each agent strays in a step, (n_agents,).
+            open_cells: 1 where a cell may be strayed from, of all behaviors one after the other.
+            learn: is given the steps of each batch of lanes, in the order of the agents.
+        """
+        returns, steps_taken, own_rates = np.zeros((3, self._keys.size))
+        own_rates[: self.size] = rates
+        before = (*self._inputs(keys, structures), returns, open_cells, own_rates)
+        for steps in self.kernels.run_practice(self._keys.size, before, (steps_taken,)):
+            last = min(steps.first + self.kernels.lanes, self.size)
+            learn(steps, steps_taken[steps.first : last])
+        return returns[: self.size]
 
     def traced_episode(self, key: int, structure: Integers, record: Floats) -> int:
         """Run the first agent's episode, record every step, and return the number of steps taken.

@@ -33,6 +33,7 @@ UNUSUAL = (
 )  # fmt: skip
 """Settings that no shipped spec has."""
 LANES = 8
+DETAILS = (Detail.CREDIT, Detail.TERMS, Detail.TRACE)
 OTHER_BYTES = "designs have other bytes: if that is meant, REVISION in bbsd/version.py must go up by one"
 
 RENAMED: dict[str, str] = {}
@@ -97,7 +98,7 @@ def sources_of(path: Path, *overrides: str) -> list[tuple[Detail, str]]:
         problem = compile_meaning(bbsd.load(path, overrides=overrides).meaning)
     except SpecError:
         return []
-    return [(detail, kernel_source(problem.meaning, problem.tables, LANES, (detail,))) for detail in Detail]
+    return [(detail, kernel_source(problem.meaning, problem.tables, LANES, (detail,))) for detail in DETAILS]
 
 
 def tree_of(source: str) -> str:

@@ -51,7 +51,7 @@ def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...
         Pass(
             "robot loops",
             lambda program: replace(program, meaning=loop_over_robots(program.meaning, most_written_out)),
-            frozenset({Detail.CREDIT, Detail.TERMS}),
+            frozenset({Detail.CREDIT, Detail.TERMS, Detail.PRACTICE}),
             "Compile time does not grow with the number of robots. A trace is not compiled, and names each robot.",
         ),
         Pass(

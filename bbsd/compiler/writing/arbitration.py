@@ -18,12 +18,14 @@ from bbsd.expression.operations import BINDING
 if TYPE_CHECKING:
     from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.emission import Emitter
+    from bbsd.compiler.writing.practice import Practice
     from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.expression.graph import Node
 
 MOST_BIDS = 8
 """Bids compared in one expression, so that lines can be read."""
 ACTION_BITS = 16
+ACTION_MASK = (1 << ACTION_BITS) - 1
 """A priority is the layer shifted by so many bits, plus the number of actions of the behaviors before."""
 
 
@@ -32,6 +34,8 @@ class Arbitration:
     """The statements that find the action that controls each robot."""
 
     function: RolloutFunction
+    practice: Practice | None = None
+    """How robots stray from their tables, in a rollout for practice."""
 
     @cached_property
     def arrays(self) -> list[tuple[str, str]]:
@@ -76,6 +80,8 @@ class Arbitration:
             cell_stores.append((function.at(cell), self._cell(index, robot, emitter, block)))
             row = f"{self.arrays[index][1]}[lane]"
             look_ups.append(f"{function.at(choice)} = tables[{row} + {function.at(cell)}]")
+            if self.practice is not None:
+                look_ups += self.practice.look_up(index, robot, function.at(cell))
         for element, text in cell_stores:
             block.store(element, text)
         return loop_lines(emitter.blocks, function, apart=look_ups)
@@ -109,26 +115,45 @@ class Arbitration:
         """Find the number of the action that controls a robot; 0 is nobody's."""
         function = self.function
         highest, last = Text("0"), len(function.shapes) - 1
+        if self.practice is not None:
+            self.practice.draw(robot, emitter, block)
+            self.practice.record_joint(robot, emitter, block)
         for index in range(len(function.shapes)):
             active, bid = self._bid(index, robot, emitter, block)
             highest = function.call_of("maximum_where", highest, active, bid)
             if index % MOST_BIDS == MOST_BIDS - 1 and index < last:
                 name = function.namer(function.robots_name("highest", robot))
                 highest = block.define(name, highest, Kind.CELL)
-        action = infix("&", highest, Text(str((1 << ACTION_BITS) - 1)))
+        if self.practice is not None:
+            highest = block.define(function.namer(function.robots_name("highest", robot)), highest, Kind.CELL)
+            self._record_asked(self.practice, robot, highest, emitter, block)
+        action = infix("&", highest, Text(str(ACTION_MASK)))
         block.define(function.actions[robot], action, Kind.CELL, function.episode.choices[robot])
 
     def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> tuple[Text, Text]:
         """Return whether a behavior is activated, and what it then bids for control: its priority and its choice."""
         function, module = self.function, self.function.episode.modules[index]
         value = self._choice(index, robot, emitter, block)
-        name = function.namer(function.robots_name(f"choice_{module.name}", robot))
-        choice = block.define(name, value, Kind.CELL)
+        if self.practice is None:
+            name = function.namer(function.robots_name(f"choice_{module.name}", robot))
+            choice = block.define(name, value, Kind.CELL)
+        else:
+            cell = self._cell_asked(index, robot, emitter, block)
+            choice = self.practice.choice(index, robot, cell, value, block)
         active, excited = infix(">", choice, Text("0")), emitter.text(module.excited[robot], block)
         if excited.source != "True":
             active = infix("&", active, excited)
         priority = Text(f"{self.arrays[index][0]}[lane]")
         return active, priority if function.shapes[index].n_actions == 1 else infix("+", priority, choice)
+
+    def _record_asked(
+        self, practice: Practice, robot: int, highest: Text, emitter: Emitter, block: Block
+    ) -> None:
+        """Record what behaviors were asked: a behavior of a layer up to the highest has a bid that is not lower."""
+        for index, module in enumerate(self.function.episode.modules):
+            excited = emitter.text(module.excited[robot], block)
+            best = infix("|", Text(f"{self.arrays[index][0]}[lane]"), Text(str(ACTION_MASK)))
+            practice.record_asked(index, robot, excited, best, highest, block)
 
     def _choice(self, index: int, robot: int, emitter: Emitter, block: Block) -> Text:
         """Return the value of the behavior's table at the robot's cell."""
@@ -141,6 +166,12 @@ class Arbitration:
         shift = cell if shape.bits == 1 else infix("*", cell, Text(str(shape.bits)))
         source = f"({table} >> {grouped(shift, ATOM)}) & {shape.mask}"
         return shift._replace(source=source, binds=BINDING["&"])
+
+    def _cell_asked(self, index: int, robot: int, emitter: Emitter, block: Block) -> Text:
+        """Return the index of the table's cell where choices are made: that of a large table was stored."""
+        if (index, robot) in self._looked_up:
+            return Text(self.function.at(self._looked_up[index, robot][0]))
+        return self._cell(index, robot, emitter, block)
 
     def _cell(self, index: int, robot: int, emitter: Emitter, block: Block) -> Text:
         """Return the index of the table's cell: row-major over the inputs."""

@@ -10,7 +10,8 @@ from bbsd.kernel import functions, memory, streams
 RESERVED = (
     "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "packed_tables",
     "tables", "table_offsets", "priorities", "constants", "returns", "credit", "terms", "control", "steps_taken",
-    "not_finite", "expectations_met", "record", "running", "rollout", "numbers", "cells", "streams", "own",
+    "not_finite", "expectations_met", "record", "open_cells", "rates", "asked", "joint_cells", "gains",
+    "running", "rollout", "numbers", "cells", "streams", "own",
     "own_numbers", "own_cells", "stride", "robot", "pair", "other", "theirs",
     "abs", "float", "int", "range",
 )  # fmt: skip

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.details import Detail, traced_definitions
+from bbsd.compiler.details import IN_DETAIL, Detail, traced_definitions
 from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
 from bbsd.compiler.writing.blocks import Block
 from bbsd.compiler.writing.memory import Memory
@@ -155,7 +155,7 @@ class RolloutFunction:
         """What a step computes: what is asked for, and every slot that this reads in a later step, and so on."""
         episode = self.episode
         outputs = [*credit_outputs(episode), *self.to_prove]
-        if self.detail is not Detail.CREDIT:
+        if self.detail in IN_DETAIL:
             outputs += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
             outputs += [node for nodes in episode.expects.values() for node in nodes]
         if self.detail is Detail.TRACE:

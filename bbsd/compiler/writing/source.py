@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.details import Detail
+from bbsd.compiler.details import IN_DETAIL, Detail
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.emission import emitter_of
 from bbsd.compiler.writing.loop_fission import loop_lines
+from bbsd.compiler.writing.practice import PRACTICE, Practice
 from bbsd.compiler.writing.precedence import Text
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO, RolloutFunction, indent
 from bbsd.compiler.writing.schedule import Closing, closing_of
@@ -22,6 +23,7 @@ from bbsd.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from bbsd.compiler.joint import JointPartition
     from bbsd.compiler.passes.pipeline import Program
     from bbsd.compiler.tables import TableShape
     from bbsd.compiler.writing.blocks import Block
@@ -34,12 +36,21 @@ ARGUMENTS = (
 )  # fmt: skip
 
 
-def module_source(programs: Mapping[Detail, Program], shapes: Sequence[TableShape], lanes: int) -> str:
-    """Return the source of a module with the rollouts of these programs, and how much memory they need."""
+def module_source(
+    programs: Mapping[Detail, Program],
+    shapes: Sequence[TableShape],
+    lanes: int,
+    joint: JointPartition | None = None,
+) -> str:
+    """Return the source of a module with the rollouts of these programs, and how much memory they need.
+
+    A rollout for practice needs the joint partition.
+    """
     texts, used, tables, memory_size = [], set(), dict[str, str](), 0
     for detail, program in programs.items():
         function = RolloutFunction(program.meaning, shapes, lanes, detail, program.to_prove, tables)
-        texts.append(f"\n{rollout_source(function)}")
+        practiced = joint if detail is Detail.PRACTICE else None
+        texts.append(f"\n{rollout_source(function, practiced)}")
         used |= function.used
         memory_size = max(memory_size, function.size)
     name = next(iter(programs.values())).meaning.spec.name
@@ -58,18 +69,17 @@ def _imports(module: str, names: Sequence[str]) -> list[str]:
     return [f"from {module} import {', '.join(names)}"] if names else []
 
 
-def rollout_source(function: RolloutFunction) -> str:
-    """Return the source of one rollout function."""
-    arbitration = Arbitration(function)
-    totals = Totals(function, arbitration)
+def rollout_source(function: RolloutFunction, joint: JointPartition | None = None) -> str:
+    """Return the source of one rollout function; that of practice records cells of a joint partition."""
+    practice = None if joint is None else Practice(function, joint)
+    arbitration = Arbitration(function, practice)
+    totals = Totals(function, arbitration, practice)
     start = _start(function, arbitration, totals)
     step = _step(function, arbitration, totals)
     finish = totals.finish()
-    arguments = [*ARGUMENTS, *(DETAILED if function.detail is not Detail.CREDIT else ())]
-    arguments += ["record"] if function.detail is Detail.TRACE else []
     return "\n".join(
         [
-            f"def {function.detail.value}({', '.join(arguments)}):",
+            f"def {function.detail.value}({', '.join(_arguments(function.detail))}):",
             *indent(function.scratch(), 1),
             *indent(function.call.lines, 1),
             f"    for base in range(first, last, {function.lanes}):",
@@ -80,6 +90,14 @@ def rollout_source(function: RolloutFunction) -> str:
             *([] if function.uncertain is None else _ends_uncertain(function.uncertain)),
         ]
     )
+
+
+def _arguments(detail: Detail) -> list[str]:
+    """Return the names of a rollout's arguments."""
+    if detail is Detail.PRACTICE:
+        return [*(name for name in ARGUMENTS if name != "credit"), *PRACTICE]
+    further = DETAILED if detail in IN_DETAIL else ()
+    return [*ARGUMENTS, *further, *(["record"] if detail is Detail.TRACE else [])]
 
 
 def _ends_uncertain(uncertain: str) -> list[str]:
@@ -94,6 +112,8 @@ def _start(function: RolloutFunction, arbitration: Arbitration, totals: Totals) 
     first = emitter.blocks.stage(0)
     first.store("key[lane]", Text("keys[base + lane]"))
     arbitration.start(first)
+    if arbitration.practice is not None:
+        arbitration.practice.start(first)
     end = closing_of(emitter.blocks, emitter.stage_of, start.values())
     blocks = {slot: end.knowing(own=function.is_own(array)) for slot, array in function.slots.items()}
     texts = {slot: emitter.text(node, blocks[slot]) for slot, node in start.items()}
@@ -112,6 +132,8 @@ def _step(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -
     emitter = emitter_of(function, [*function.outputs, *function.episode.choices], arbitration.stage)
     deciding = emitter.blocks.stage(arbitration.stage)
     end = closing_of(emitter.blocks, emitter.stage_of, function.outputs)
+    if arbitration.practice is not None:
+        arbitration.practice.begin_step(emitter)
     deciding.comment("Decide: the highest layer that is excited and whose cell is not No Action controls.")
     for robot in range(function.robots):
         arbitration.decide(robot, emitter, deciding)
@@ -121,11 +143,13 @@ def _step(function: RolloutFunction, arbitration: Arbitration, totals: Totals) -
     totals.add(emitter, end)
     if function.uncertain is not None:
         totals.add_uncertain(function.uncertain, emitter, end)
-    if function.detail is not Detail.CREDIT:
+    if function.detail in IN_DETAIL:
         end.each.comment("What an evaluation adds up.")
         totals.add_details(emitter, end)
     if function.detail is Detail.TRACE:
         totals.record(emitter, end)
+    if function.detail is Detail.PRACTICE:
+        totals.add_step(end)
     if function.running is not None and function.episode.ends is not None:
         ended = emitter.text(function.episode.ends, end.team)
         running = function.call_of("select", ended, ZERO, function.read(function.running))

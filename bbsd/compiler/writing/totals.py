@@ -7,7 +7,7 @@ from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.details import Detail, checked_slots, traced_definitions
+from bbsd.compiler.details import IN_DETAIL, Detail, checked_slots, traced_definitions
 from bbsd.compiler.writing.looping import FIRST_ROBOT
 from bbsd.compiler.writing.precedence import Text, infix, join, name_text, sum_of, times
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.arbitration import Arbitration
     from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.emission import Emitter
+    from bbsd.compiler.writing.practice import Practice
     from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.compiler.writing.schedule import Closing
     from bbsd.expression.graph import Node
@@ -36,6 +37,7 @@ class Totals:
 
     function: RolloutFunction
     arbitration: Arbitration
+    practice: Practice | None = None
     earned: dict[tuple[str, int], Text] = field(default_factory=dict)
     """What each term gave each robot in a step, where it has a name."""
 
@@ -46,7 +48,9 @@ class Totals:
 
     @cached_property
     def credit(self) -> list[str]:
-        """The arrays of each behavior's credit, the last one nobody's."""
+        """The arrays of each behavior's credit, the last one nobody's; practice gives credit in its own way."""
+        if self.function.detail is Detail.PRACTICE:
+            return []
         return [self.function.keep(f"credit_{name}") for name in self._controllers]
 
     @property
@@ -59,6 +63,8 @@ class Totals:
         function = self.function
         if function.detail is Detail.CREDIT:
             return {}
+        if function.detail is Detail.PRACTICE:
+            return {"steps_taken": [function.keep("steps_taken_")]}
         return {
             "terms": [function.keep(f"sum_{term}") for term in function.episode.reward],
             "control": [function.keep(f"steps_{name}") for name in self._controllers],
@@ -70,7 +76,7 @@ class Totals:
     def not_finite(self) -> dict[Slot, str]:
         """The arrays that count the steps in which a slot's value was not finite."""
         function = self.function
-        if function.detail is Detail.CREDIT:
+        if function.detail not in IN_DETAIL:
             return {}
         return {slot: self._count_of(slot) for slot in checked_slots(function.episode)}
 
@@ -88,6 +94,8 @@ class Totals:
     def add(self, emitter: Emitter, end: Closing) -> None:
         """Add a step's reinforcement: what each robot earned goes to what controlled it."""
         function, earned = self.function, self._earned_by_robot(emitter, end)
+        if self.practice is not None:
+            self.practice.record_gains(earned, end)
         self._add(end.team, self.total, [self._earned_by_team(earned, end)])
         for index, array in enumerate(self.credit):
             for first in range(0, len(earned), MOST_ADDED):
@@ -144,7 +152,7 @@ class Totals:
         function, total, nested = self.function, None, 0
         for term, nodes in function.episode.reward.items():
             node = nodes[robot]
-            if total is not None and function.detail is Detail.CREDIT and _is_conditional(node):
+            if total is not None and function.detail not in IN_DETAIL and _is_conditional(node):
                 if nested == MOST_ADDED:
                     total, nested = end.each.define(function.namer.numbered("so_far"), total), 0
                 condition, value, _ = (emitter.text(operand, end.each) for operand in node.operands)
@@ -166,11 +174,7 @@ class Totals:
 
     def add_details(self, emitter: Emitter, end: Closing) -> None:
         """Add what an evaluation reports: terms, steps of control, steps taken, values that are not finite."""
-        function = self.function
-        robots, step = (
-            range(function.robots),
-            ONE if function.running is None else function.read(function.running),
-        )
+        function, robots, step = self.function, range(self.function.robots), self._step
         for term, array in zip(function.episode.reward, self.details["terms"], strict=True):
             self._add(end.each, array, [function.while_running(self.earned[term, robot]) for robot in robots])
         for index, array in enumerate(self.details["control"]):
@@ -180,11 +184,21 @@ class Totals:
             block = end.knowing(own=function.is_own(array))
             finite = function.call_of("is_finite", emitter.text(function.episode.after[slot], block))
             self._add(block, array, [function.call_of("select", finite, ZERO, step)])
-        self._add(end.team, self.details["steps_taken"][0], [step])
+        self.add_step(end)
         for array, (index, nodes) in zip(self.details["expectations_met"], self._expected, strict=True):
             met = [self._if(emitter.text(node, end.each), step) for node in nodes]
             controls = [self._controls(index, robot, emitter, end) for robot in robots]
             self._add(end.each, array, map(self._if, controls, met))
+
+    @property
+    def _step(self) -> Text:
+        """The number of steps that a step counts: none once the lane's episode is over."""
+        function = self.function
+        return ONE if function.running is None else function.read(function.running)
+
+    def add_step(self, end: Closing) -> None:
+        """Count the step."""
+        self._add(end.team, self.details["steps_taken"][0], [self._step])
 
     @property
     def _expected(self) -> list[tuple[int, tuple[Node, ...]]]:
