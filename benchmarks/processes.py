@@ -16,7 +16,7 @@ from benchmarks.workloads.specs import SPECS
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-LIFTING, ABSTRACT = str(SPECS / "object_lifting.yaml"), str(SPECS / "abstract.yaml")
+LIFTING, ABSTRACT = str(SPECS / "paper" / "object_lifting.yaml"), str(SPECS / "paper" / "abstract.yaml")
 PYTHON_VARIABLE = "BENCHMARKED_PYTHON"
 """Names the Python whose processes are measured: the running one has the peers' packages installed."""
 

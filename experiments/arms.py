@@ -37,14 +37,14 @@ UNJUDGED = ("design.answer.candidates=1", "design.answer.episodes=100", "design.
 HIGHER = "environment.state.height=2.5 if robot == 0 else 2"
 
 ARMS = {
-    "order learned, no culture": ("object_lifting_order", [NO_CULTURE]),
-    "order learned, culture": ("object_lifting_order", []),
-    "uniform, order given": ("object_lifting_rules", []),
-    "uniform, no culture": ("object_lifting_no_culture", []),
-    "uniform, culture": ("object_lifting", []),
-    "value, order given": ("object_lifting_rules", [VALUE]),
-    "value, no culture": ("object_lifting_value", [NO_CULTURE]),
-    "value, culture": ("object_lifting_value", []),
+    "order learned, no culture": ("paper/object_lifting_order", [NO_CULTURE]),
+    "order learned, culture": ("paper/object_lifting_order", []),
+    "uniform, order given": ("paper/object_lifting_rules", []),
+    "uniform, no culture": ("paper/object_lifting_no_culture", []),
+    "uniform, culture": ("paper/object_lifting", []),
+    "value, order given": ("paper/object_lifting_rules", [VALUE]),
+    "value, no culture": ("paper/object_lifting_value", [NO_CULTURE]),
+    "value, culture": ("paper/object_lifting_value", []),
 }
 
 
@@ -83,7 +83,7 @@ def population(spec: str, overrides: Sequence[str], folder: Path) -> Arm:
 
 def lift(seed: int, folder: Path) -> Lift:
     """Design the task with a seed, and run an episode of the design in which robot 0 starts higher (Fig. 22)."""
-    designed = bbsd.design(spec_path("object_lifting"), seed=seed, out=folder / f"lift-{seed}")
+    designed = bbsd.design(spec_path("paper/object_lifting"), seed=seed, out=folder / f"lift-{seed}")
     episode = bbsd.trace(designed.architecture, overrides=[HIGHER])
     speeds, heights = (
         np.array([episode.values[Slot(name, robot)] for robot in range(3)], dtype=float)

@@ -19,7 +19,8 @@ from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import name_word
 from experiments.designs import SEEDS, returns, spec_path, verdict
 
-LIFTING, BY_HAND, ABSTRACT = map(spec_path, ("object_lifting", "object_lifting_hand", "abstract"))
+LIFTING, ABSTRACT = map(spec_path, ("paper/object_lifting", "paper/abstract"))
+BY_HAND = spec_path("object_lifting_hand")
 FRESH = keys(name_word("claims"), 0, 20_000)
 """The episodes that all designs are compared on."""
 

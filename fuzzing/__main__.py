@@ -25,7 +25,11 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
 ROOT = Path(__file__).parents[1]
-SPECS = (*ROOT.glob("specs/*.yaml"), *ROOT.glob("tests/specs/*/*.yaml"), *ROOT.glob("tests/planted/*.yaml"))
+SPECS = (
+    *ROOT.glob("specs/**/*.yaml"),
+    *ROOT.glob("tests/specs/*/*.yaml"),
+    *ROOT.glob("tests/planted/*.yaml"),
+)
 HEAVY_SHARE, ODD_ENCODING_SHARE = 0.1, 0.02
 
 

@@ -49,7 +49,7 @@ def section(*, quick: bool) -> Section:
         "Several cores, and interrupts",
         [
             (
-                "`specs/object_lifting.yaml`, whole processes by the wall clock on "
+                "`specs/paper/object_lifting.yaml`, whole processes by the wall clock on "
                 f"{len(CORES)} cores: one command with four runs and two jobs, and two commands with two runs each at "
                 "the same time, in turn. The one command also finds the best of all four."
             ),

@@ -11,7 +11,7 @@ from benchmarks.processes import LIFTING, Usage, design_command, environment, me
 from benchmarks.report import Goal, Section, table
 from benchmarks.workloads.specs import SPECS
 
-PRICED = ("object_lifting", "abstract", "mobile_robot")
+PRICED = ("paper/object_lifting", "paper/abstract", "mobile_robot")
 MOST_OFF = 2.0
 """The factor by which a prediction may be off."""
 AS_IT_IS = "as it is"
@@ -49,7 +49,7 @@ def section(*, quick: bool) -> Section:
                 "of the whole process, and MB at its peak; kernels cached."
             ),
             table(["", "seconds, predicted", "measured", "MB, predicted", "measured"], priced),
-            "`specs/object_lifting.yaml`, made longer:",
+            "`specs/paper/object_lifting.yaml`, made longer:",
             table(
                 ["", "MB at the peak", f"times {AS_IT_IS}"],
                 [
@@ -68,7 +68,7 @@ def prices(folder: Path, names: tuple[str, ...]) -> tuple[list[list[str]], list[
     for name in names:
         spec = str(SPECS / f"{name}.yaml")
         price(spec, folder)  # compiles what it needs
-        predicted, usage = price(spec, folder), design(spec, folder / name, folder)
+        predicted, usage = price(spec, folder), design(spec, folder / name.replace("/", "-"), folder)
         seconds, megabytes = predicted["seconds"], predicted["bytes"] / MEGABYTE
         rows.append(
             [name, f"{seconds:.2f}", f"{usage.processor:.2f}", f"{megabytes:.0f}", f"{usage.memory:.0f}"]

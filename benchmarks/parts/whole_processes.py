@@ -14,8 +14,9 @@ from benchmarks.report import Goal, Section, table
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-PASS, HELP, CHECK = "python -c pass", "bbsd --help", "bbsd check specs/object_lifting.yaml"
-DESIGN_LIFTING, DESIGN_ABSTRACT = "bbsd design specs/object_lifting.yaml", "bbsd design specs/abstract.yaml"
+PASS, HELP, CHECK = "python -c pass", "bbsd --help", "bbsd check specs/paper/object_lifting.yaml"
+DESIGN_LIFTING = "bbsd design specs/paper/object_lifting.yaml"
+DESIGN_ABSTRACT = "bbsd design specs/paper/abstract.yaml"
 NEW, COLD = "a new spec, library cached, to its first generation", "the same, everything cold"
 
 BOUNDS = {HELP: 8, CHECK: 16, DESIGN_LIFTING: 1.5, DESIGN_ABSTRACT: 8, NEW: 2, COLD: 15}

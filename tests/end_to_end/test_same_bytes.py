@@ -19,7 +19,9 @@ from bbsd.compiler.kernels import kernel_source
 from bbsd.errors import SpecError
 
 TOP = Path(__file__).parents[2]
-SPECS = sorted((TOP / "specs").glob("*.yaml"))
+FROZEN = Path(__file__).parent / "specs" / "same_bytes"
+"""The shipped specs as they were when the golden digests were written: those that are shipped may change."""
+SPECS = sorted(FROZEN.glob("*.yaml"))
 VALID = sorted((TOP / "tests" / "specs" / "valid").glob("**/*.yaml"))
 TASKS = [path for path in SPECS if not path.stem.endswith("_hand")]
 SEEDS = (0, 1, 2)
@@ -41,7 +43,8 @@ RENAMED: dict[str, str] = {}
 
 
 def short(path: Path) -> str:
-    return path.relative_to(TOP).as_posix()
+    """Return a spec's name in the golden files, where the frozen ones have the folder that they were shipped in."""
+    return f"specs/{path.name}" if path.parent == FROZEN else path.relative_to(TOP).as_posix()
 
 
 def digest(content: bytes) -> str:
@@ -56,7 +59,7 @@ def test_designs_have_the_bytes_that_they_had(path, tmp_path, golden):
 def test_designs_with_unusual_settings_have_the_bytes_that_they_had(tmp_path, golden):
     golden(
         "designs/unusual_settings.txt",
-        designed(TOP / "specs" / "object_lifting.yaml", tmp_path, SHORT + UNUSUAL),
+        designed(FROZEN / "object_lifting.yaml", tmp_path, SHORT + UNUSUAL),
         OTHER_BYTES,
     )
 

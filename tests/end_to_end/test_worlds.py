@@ -19,29 +19,43 @@ from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 
 SPECS = Path(__file__).parents[2] / "specs"
-ARMS = sorted(SPECS.glob("object_lifting_*.yaml"))
+PAPER = SPECS / "paper"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
+TASKS = tuple(
+    f"tasks/{name}"
+    for name in ("cartpole", "mountain_car", "acrobot", "door_and_key", "survival", "aggregation")
+)
 
 
-def uncompiled(name):
-    return compile_meaning(bbsd.load(SPECS / f"{name}.yaml").meaning, lanes=12, compiled=False)
+SHORTER = {"tasks/aggregation": ["environment.steps=40"]}
+"""Episodes of twenty robots take seconds without a compiler."""
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in SPECS.glob("*.yaml")))
-def test_no_shipped_spec_has_a_mistake(name):
-    assert bbsd.check(SPECS / f"{name}.yaml") == ()
+def uncompiled(name, overrides=()):
+    loaded = bbsd.load(SPECS / f"{name}.yaml", overrides=overrides)
+    return compile_meaning(loaded.meaning, lanes=12, compiled=False)
 
 
-@pytest.mark.parametrize("world", WORLDS)
+@pytest.mark.parametrize("path", sorted(SPECS.rglob("*.yaml")), ids=lambda path: path.stem)
+def test_no_shipped_spec_has_a_mistake(path):
+    assert bbsd.check(path) == ()
+
+
+@pytest.mark.parametrize("path", sorted(SPECS.glob("tasks/*.yaml")), ids=lambda path: path.stem)
+def test_tasks_leave_the_method_to_whoever_designs_them(path):
+    assert "design" not in yaml.safe_load(path.read_text())
+
+
+@pytest.mark.parametrize("world", WORLDS + TASKS)
 def test_a_hand_made_design_adds_only_rules_and_a_structure(world):
     written = yaml.safe_load((SPECS / f"{world}_hand.yaml").read_text())
     assert set(written) == {"bbsd", "name", "extends", "behaviors", "structure"}
     assert all(set(behavior) == {"rules"} for behavior in written["behaviors"].values())
 
 
-@pytest.mark.parametrize("world", WORLDS)
+@pytest.mark.parametrize("world", WORLDS + TASKS)
 def test_the_hand_made_design_earns_more_than_random_agents(world):
-    task, hand = (uncompiled(name) for name in (world, f"{world}_hand"))
+    task, hand = (uncompiled(name, SHORTER.get(world, ())) for name in (world, f"{world}_hand"))
     by_hand = returns_of(hand, agents_of([given_architecture(hand)]), keys(1, 0, 12), 1)
     at_random = returns_of(task, random_agents(task, 2, 12), keys(1, 0, 1), 1)
     assert interval(by_hand.ravel()).low > interval(at_random.ravel()).high
@@ -65,9 +79,7 @@ def test_every_start_of_the_grid_world_can_be_tried():
     assert found.reward_terms["arrived"] > 18
 
 
-@pytest.mark.parametrize(
-    "path", [each for each in ARMS if each.stem != "object_lifting_hand"], ids=lambda path: path.stem
-)
+@pytest.mark.parametrize("path", sorted(PAPER.glob("*.yaml")), ids=lambda path: path.stem)
 def test_an_arm_of_the_paper_is_designed(path):
     small = [
         "coevolution.generations=2",
@@ -86,16 +98,24 @@ def test_an_arm_of_the_paper_is_designed(path):
 
 def test_the_arms_differ_from_the_task_in_what_they_say():
     order, rules, value, no_culture, higher = (
-        bbsd.load(SPECS / f"object_lifting_{arm}.yaml")
+        bbsd.load(PAPER / f"object_lifting_{arm}.yaml")
         for arm in ("order", "rules", "value", "no_culture", "robot_1_higher")
     )
-    assert all(behavior.rules for behavior in order.spec.behaviors.values())
+    hand = bbsd.load(SPECS / "object_lifting_hand.yaml").spec
+    assert order.spec.behaviors == hand.behaviors
     assert order.spec.structure is None
-    assert rules.spec.structure == bbsd.load(SPECS / "object_lifting_hand.yaml").spec.structure
+    assert rules.spec.structure == hand.structure
     assert not any(behavior.rules for behavior in rules.spec.behaviors.values())
     assert value.spec.design.sharing == "value"
     assert no_culture.spec.design.culture == "none"
     assert starts_of(higher, "height") == [2.5, 2, 2]
+
+
+@pytest.mark.parametrize("name", ["abstract", "object_lifting"])
+def test_the_paper_s_problems_are_the_tasks_with_its_method(name):
+    task, paper = (yaml.safe_load((folder / f"{name}.yaml").read_text()) for folder in (SPECS, PAPER))
+    assert paper.pop("design")["method"] == "paper"
+    assert paper == task
 
 
 def starts_of(loaded, name):

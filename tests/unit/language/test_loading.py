@@ -9,7 +9,7 @@ from bbsd.language.loading import MAX_DIAGNOSES, MAX_EXAMINED_TWICE, check, load
 from bbsd.text import Source, read
 from tests.unit.language.specs import BASE, codes, messages, source
 
-SHIPPED = sorted((Path(__file__).parents[3] / "specs").glob("*.yaml"))
+SHIPPED = sorted((Path(__file__).parents[3] / "specs").rglob("*.yaml"))
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)

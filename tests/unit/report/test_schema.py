@@ -13,7 +13,7 @@ from bbsd.report.schema import SCHEMA_FILE, language_schema
 from bbsd.text import Source, read
 
 ROOT = Path(__file__).parents[3]
-SHIPPED = [*sorted((ROOT / "specs").glob("*.yaml")), *sorted((ROOT / "bbsd/cli/templates").glob("*.yaml"))]
+SHIPPED = [*sorted((ROOT / "specs").rglob("*.yaml")), *sorted((ROOT / "bbsd/cli/templates").glob("*.yaml"))]
 VALID = sorted((ROOT / "tests/specs/valid").glob("*.yaml"))
 OF_FORM = re.compile(r"BB02[0-467]")
 TOLD_BY_CHECK_ALONE = {"BB022_infinity.yaml"}  # JSON has no infinity, and so no word for it

@@ -31,7 +31,7 @@ def test_mutation_follows_table_1():
 
 
 def test_mutation_of_the_abstract_problem_ends_at_generation_180():
-    rates = settings_of(meaning_of(shipped("abstract"))).rates
+    rates = settings_of(meaning_of(shipped("paper/abstract"))).rates
     assert len(rates.hard_mutation) == 200
     assert rates.hard_mutation[178] > 0
     assert not any(rates.hard_mutation[179:])

@@ -14,7 +14,7 @@ from bbsd.text.writing.house_style import in_house_style
 from bbsd.text.writing.leaves import comments_in
 
 ROOT = Path(__file__).parents[4]
-SHIPPED = [*sorted((ROOT / "specs").glob("*.yaml")), *sorted((ROOT / "bbsd/cli/templates").glob("*.yaml"))]
+SHIPPED = [*sorted((ROOT / "specs").rglob("*.yaml")), *sorted((ROOT / "bbsd/cli/templates").glob("*.yaml"))]
 FILES = [*SHIPPED, *sorted((ROOT / "tests/specs/valid").glob("*.yaml"))]
 
 
