@@ -57,6 +57,6 @@ def joint_partition(modules: Sequence[Module]) -> JointPartition:
         for place, size in enumerate(sizes):
             digit = JointDigit(behavior, place if place < len(module.inputs) else None, size)
             nodes = [digit.node(modules, robot) for robot in range(len(module.cells))]
-            if not all(node.literal for node in nodes):
+            if not nodes[0].literal or len(set(nodes)) > 1:
                 digits.setdefault(tuple(node.number for node in nodes), digit)
     return JointPartition(tuple(digits.values()))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from bbsd.compiler.joint_control import JointControl
 from bbsd.evaluation import returns_of
 from bbsd.evaluation.sums import row_means
 from bbsd.kernel.keys import keys
@@ -32,6 +33,11 @@ class Arena:
     def space(self) -> Space:
         """What the problem leaves open."""
         return Space(self.problem)
+
+    @cached_property
+    def joint_control(self) -> JointControl:
+        """The same robots, controlled by one table over the joint partition."""
+        return JointControl(self.problem)
 
     def returns(self, designs: Designs, key: int, count: int, first: int = 0) -> NDArray[np.float64]:
         """Run all designs in the same episodes, numbers `first`, `first + 1`, ... of a stream.

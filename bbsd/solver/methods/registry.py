@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bbsd.solver.methods import cross_entropy, hill, joint, random_search, societies
+from bbsd.solver.methods import cross_entropy, hill, joint, q_learning, random_search, societies
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,6 +18,7 @@ _METHODS: tuple[Method, ...] = (
     random_search.METHOD,
     hill.METHOD,
     joint.METHOD,
+    q_learning.METHOD,
 )
 
 METHODS: Mapping[str, Method] = MappingProxyType({method.name: method for method in _METHODS})
