@@ -12,7 +12,7 @@ import time
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -41,11 +41,15 @@ from bbsd.language.loading import load as load_source
 from bbsd.language.meaning import seed_key
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
-from bbsd.runs.folder import Folder, Identity, folder_to_resume, identity, new_folder
+from bbsd.runs.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
+from bbsd.runs.identity import Identity, identity
+from bbsd.runs.lock import only_writer
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
+from bbsd.runs.searching import ANSWER
 from bbsd.runs.signals import interrupts_request_stop
-from bbsd.solver.judgement import RANDOM_EPISODES, judge
+from bbsd.solver.budget import automatic_budget
+from bbsd.solver.judgement import RANDOM_EPISODES, Judgement, judge
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.text import Source
@@ -57,11 +61,13 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
     from bbsd.runs.processes import Processes
+    from bbsd.solver.settings import Settings
 
 EVALUATION = name_word("evaluation")
 EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES
 """Numbers of episodes in an evaluation by default: of a design, and of each random agent, as after a design."""
 
+AnyProgress: TypeAlias = "Progress | SearchProgress"
 AnySpec = str | Path | Loaded
 """The path of a spec's file, or a loaded spec."""
 
@@ -92,6 +98,43 @@ class Progress:
     best: float
     lifetime: float
 
+    @property
+    def done(self) -> int:
+        """What is done of a run, in generations."""
+        return self.generation
+
+    @property
+    def total(self) -> int:
+        """What a run consists of, in generations."""
+        return self.generations
+
+
+@dataclass(frozen=True, slots=True)
+class SearchProgress:
+    """How far a search is, and the best design so far. Runs count from 1."""
+
+    run: int
+    runs: int
+    episodes: int
+    """Episodes so far."""
+    budget: int
+    mean: float
+    """The mean return of the best design so far, in episodes that took no part in choosing it."""
+    measured: int
+    """The number of these episodes."""
+    is_answer: bool
+    """Whether the run has ended, and the best is its answer."""
+
+    @property
+    def done(self) -> int:
+        """What is done of a run, in episodes."""
+        return self.budget if self.is_answer else min(self.episodes, self.budget - 1)
+
+    @property
+    def total(self) -> int:
+        """What a run consists of, in episodes."""
+        return self.budget
+
 
 @dataclass(frozen=True, slots=True)
 class Designed:
@@ -101,12 +144,17 @@ class Designed:
     """The file of the designed spec."""
     folder: Path
     """The folder of all files of the design."""
+    method: str
+    """The method that searched."""
     structure: tuple[str, ...]
     """The names of the behaviors, highest layer first."""
     evaluation: Evaluation
     """Its evaluation on episodes that took no part in choosing it."""
-    lifetime: Interval
-    """The lifetime fitness of agents that have its behaviors and its structure at birth, and learn."""
+    lifetime: Interval | None
+    """The lifetime fitness of agents that have its behaviors and its structure at birth, and learn.
+
+    None for methods that have no lifetimes.
+    """
     random: Interval
     """The mean return of random agents, for comparison."""
     seconds: float
@@ -274,7 +322,7 @@ def design(
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
     overrides: Sequence[str] = (),
-    progress: Callable[[Progress], None] | None = None,
+    progress: Callable[[AnyProgress], None] | None = None,
     overdue: Callable[[Interrupted], object] | None = None,
     ready: Processes | None = None,
 ) -> Designed:
@@ -293,7 +341,7 @@ def design(
         jobs: Processes for several runs, and threads within a run if there are more jobs than runs; affects only
             the speed.
         overrides: Values that replace those of the spec.
-        progress: Called after each generation.
+        progress: Called after each generation, or each time the best so far was measured.
         overdue: Called in another thread if the design does not stop soon after an interrupt. An interrupt takes
             effect after the episodes that are running. `overdue` may end the process, since all written files are
             complete.
@@ -309,29 +357,60 @@ def design(
     started = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = _problem_with_holes(loaded, lanes, jobs)
-    run_identity = identity(loaded.lineage.flat.source.text, tuple(overrides), seed, runs)
+    run_identity = identity(loaded, seed, runs)
     folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
-    command = Command(problem, settings_of(loaded.meaning), seed, runs, folder)
-    interrupted = Interrupted(folder.path)
-    with _located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
-        try:
-            judged = judge(
-                complete_runs(command, jobs, progress and _metrics_listener(command, progress), ready),
-                problem,
-                command.settings,
-                seed,
-            )
-        except KeyboardInterrupt:
-            raise interrupted from None
-    folder.gather(runs)
-    architecture = tidy_tables(problem.meaning, judged.architecture)
-    folder.write_architecture(designed_text(loaded, architecture))
-    names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
-    folder.write_run_file(run_identity, {"structure": names, "return": asdict(judged.evaluation.returns)})
+    settings = settings_of(loaded.meaning)
+    with only_writer(folder):
+        budgets = _budgets(settings, problem, folder)
+        if not resume or budgets != folder.budgets():
+            folder.write_run_file(run_identity, overrides, budgets, folder.result() or None)
+        command = Command(problem, settings, seed, runs, folder, run_identity, budgets)
+        judged = _judged(command, jobs, progress, overdue, ready, loaded)
+        folder.gather(runs)
+        text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
+        folder.write_architecture(text)
+        names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
+        result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
+        folder.write_run_file(run_identity, overrides, budgets, result)
     seconds = time.monotonic() - started
     return Designed(
-        folder.architecture, folder.path, names, judged.evaluation, judged.lifetime, judged.random, seconds
+        folder.architecture,
+        folder.path,
+        settings.method,
+        names,
+        judged.evaluation,
+        judged.lifetime,
+        judged.random,
+        seconds,
     )
+
+
+def _budgets(settings: Settings, problem: Problem, folder: Folder) -> tuple[int, ...]:
+    """Return the budgets of each run: those that the folder names, and what the present one has beyond them."""
+    if settings.method == "paper":
+        return ()
+    former = folder.budgets()
+    wanted = settings.budget or (sum(former) if former else automatic_budget(problem))
+    further = wanted - sum(former)
+    return (*former, further) if further > 0 else former
+
+
+def _judged(
+    command: Command,
+    jobs: int,
+    progress: Callable[[AnyProgress], None] | None,
+    overdue: Callable[[Interrupted], object] | None,
+    ready: Processes | None,
+    loaded: Loaded,
+) -> Judgement:
+    """Complete the runs of a command and judge the best of their answers."""
+    interrupted = Interrupted(command.folder.path)
+    with _located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
+        try:
+            answers = complete_runs(command, jobs, progress and _metrics_listener(command, progress), ready)
+            return judge(answers, command.problem, command.settings, command.seed)
+        except KeyboardInterrupt:
+            raise interrupted from None
 
 
 def price(
@@ -379,19 +458,23 @@ def _run_folder(loaded: Loaded, run_identity: Identity, out: Path | None, *, res
         return folder_to_resume(out, name, run_identity)
     folder = new_folder(out, name, run_identity.seed)
     folder.copy_spec(loaded.lineage.flat.source.text)
-    folder.write_run_file(run_identity)
     return folder
 
 
 def _metrics_listener(
-    command: Command, progress: Callable[[Progress], None]
+    command: Command, progress: Callable[[AnyProgress], None]
 ) -> Callable[[dict[str, Any]], None]:
     """Return a function that reports the metrics of a generation as progress."""
 
     def report(line: dict[str, Any]) -> None:
-        fitness = (line["mean"], line["best"], line["lifetime"])
-        generations = command.settings.coevolution.generations
-        progress(Progress(line["run"], command.n_runs, line["generation"], generations, *fitness))
+        run, runs = line["run"], command.n_runs
+        if "generation" in line:
+            fitness = (line["mean"], line["best"], line["lifetime"])
+            generations = command.settings.coevolution.generations
+            progress(Progress(run, runs, line["generation"], generations, *fitness))
+        else:
+            best = (line["mean"], line["measured"], line["stage"] == ANSWER)
+            progress(SearchProgress(run, runs, line["episodes"], sum(command.budgets), *best))
 
     return report
 

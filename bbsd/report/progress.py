@@ -8,8 +8,9 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from bbsd.api import Progress as GenerationProgress
 from bbsd.report.bars import sparkline
-from bbsd.report.numbers import column
+from bbsd.report.numbers import column, count
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from rich import progress as rich_progress
     from rich.console import Console
 
-    from bbsd.api import Progress
+    from bbsd.api import AnyProgress
 
 PLAIN_LINES = 10
 """The number of plain lines for a run."""
@@ -28,7 +29,7 @@ REST_WIDTH = 76
 
 
 @contextmanager
-def generation_listener(console: Console, *, quiet: bool = False) -> Iterator[Callable[[Progress], None]]:
+def generation_listener(console: Console, *, quiet: bool = False) -> Iterator[Callable[[AnyProgress], None]]:
     """Yield a function to call after each generation; it shows the progress on the console unless `quiet`."""
     if quiet:
         yield lambda _progress: None
@@ -36,7 +37,7 @@ def generation_listener(console: Console, *, quiet: bool = False) -> Iterator[Ca
         with _live_display(console) as display:
             yield _LiveLines(display).show
     else:
-        yield lambda progress: _print_tenths(console, progress)
+        yield _Tenths(console).show
 
 
 @contextmanager
@@ -57,34 +58,51 @@ def episode_listener(console: Console) -> Iterator[Callable[[int, int], None]]:
         yield show
 
 
-def progress_line(progress: Progress) -> str:
+def progress_line(progress: AnyProgress) -> str:
     """Return the generation that ended and the fitness of its agents, as one plain line."""
     return f"{_position(progress)}: {_fitness(progress)}"
 
 
-def _position(progress: Progress) -> str:
-    """Return the generation, and the run where there are several."""
+def _position(progress: AnyProgress) -> str:
+    """Return the generation or the episodes, and the run where there are several."""
     run = f"run {progress.run}/{progress.runs}, " if progress.runs > 1 else ""
-    return f"{run}generation {progress.generation}/{progress.generations}"
+    if isinstance(progress, GenerationProgress):
+        return f"{run}generation {progress.generation}/{progress.generations}"
+    return f"{run}{progress.episodes:,} of {progress.budget:,} episodes"
 
 
-def _phase(progress: Progress) -> str:
+def _phase(progress: AnyProgress) -> str:
     """Return the generation that ended; after a run's last one, the final race that follows it."""
-    if progress.generation < progress.generations:
+    if progress.done < progress.total or not isinstance(progress, GenerationProgress):
         return _position(progress)
     return f"run {progress.run}/{progress.runs}, final race" if progress.runs > 1 else "final race"
 
 
-def _fitness(progress: Progress) -> str:
-    """Return the fitness of a generation's agents."""
-    mean, best, lifetime = column([progress.mean, progress.best, progress.lifetime])
-    return f"mean {mean}, best {best}, lifetime {lifetime}"
+def _fitness(progress: AnyProgress) -> str:
+    """Return the fitness of a generation's agents, or the best so far in new episodes."""
+    if isinstance(progress, GenerationProgress):
+        mean, best, lifetime = column([progress.mean, progress.best, progress.lifetime])
+        return f"mean {mean}, best {best}, lifetime {lifetime}"
+    (mean,) = column([progress.mean])
+    return f"best so far {mean} in {count(progress.measured, 'new episode')}"
 
 
-def _print_tenths(console: Console, progress: Progress) -> None:
-    done, total = progress.generation, progress.generations
-    if done * PLAIN_LINES // total > (done - 1) * PLAIN_LINES // total:
-        console.print(progress_line(progress), markup=False, highlight=False, soft_wrap=True)
+class _Tenths:
+    """A plain line for each tenth of a run."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._printed: dict[int, int] = {}
+
+    def show(self, progress: AnyProgress) -> None:
+        """Print a line if a tenth of the run was completed."""
+        tenth = progress.done * PLAIN_LINES // progress.total
+        before = 0
+        if isinstance(progress, GenerationProgress):
+            before = (progress.done - 1) * PLAIN_LINES // progress.total
+        if tenth > self._printed.get(progress.run, before):
+            self._console.print(progress_line(progress), markup=False, highlight=False, soft_wrap=True)
+        self._printed[progress.run] = max(tenth, before)
 
 
 def _live_display(console: Console) -> rich_progress.Progress:
@@ -107,15 +125,15 @@ class _LiveLines:
         self._display = display
         self._tasks: dict[int, rich_progress.TaskID] = {}
         self._free = [self._new_line()]
-        self._generations: dict[int, int] = {}
+        self._done: dict[int, int] = {}
         self._histories: dict[int, list[float]] = {}
         self._curve_width = max(0, min(CURVE_WIDTH, display.console.width - REST_WIDTH))
 
-    def show(self, progress: Progress) -> None:
+    def show(self, progress: AnyProgress) -> None:
         """Show a generation that ended."""
         if progress.run not in self._tasks:
             self._tasks[progress.run] = self._line_for(progress)
-        self._generations[progress.run] = progress.generation
+        self._done[progress.run] = progress.done
         history = self._histories.setdefault(progress.run, [])
         history.append(progress.mean)
         self._display.update(
@@ -126,9 +144,9 @@ class _LiveLines:
         )
         self._update_time_left(progress)
 
-    def _line_for(self, progress: Progress) -> rich_progress.TaskID:
+    def _line_for(self, progress: AnyProgress) -> rich_progress.TaskID:
         """Return the line of a run that ended, since a process begins a run after ending another; else a new one."""
-        ended = [run for run in self._tasks if self._generations[run] == progress.generations]
+        ended = [run for run in self._tasks if self._done[run] == progress.total]
         if ended:
             self._free.append(self._tasks.pop(ended[0]))
         return self._free.pop() if self._free else self._new_line()
@@ -136,13 +154,13 @@ class _LiveLines:
     def _new_line(self) -> rich_progress.TaskID:
         return self._display.add_task("compiling", total=None, fitness="", curve="")
 
-    def _update_time_left(self, progress: Progress) -> None:
+    def _update_time_left(self, progress: AnyProgress) -> None:
         """Give every line the work done in all runs, from which rich estimates the time left.
 
         Runs begin in order, so a run that nothing was reported of, before one that was, ended earlier: before
         a stopped design was resumed.
         """
-        per_run, started = progress.generations, range(1, max(self._generations) + 1)
-        done = sum(self._generations.get(run, per_run) for run in started)
+        per_run, started = progress.total, range(1, max(self._done) + 1)
+        done = sum(self._done.get(run, per_run) for run in started)
         for task in self._tasks.values():
             self._display.update(task, total=progress.runs * per_run, completed=done)

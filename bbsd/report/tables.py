@@ -126,11 +126,10 @@ def _structure(structure: Sequence[str]) -> Table:
 
 def _fitness(designed: Designed) -> Table:
     """Return the table of fitness; all its numbers have the same decimals, to compare them at a glance."""
-    rows = {
-        "fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode")),
-        "lifetime fitness": (designed.lifetime, count(designed.lifetime.count, "lifetime")),
-        "random agents": (designed.random, count(designed.random.count, "agent")),
-    }
+    rows = {"fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode"))}
+    if designed.lifetime is not None:
+        rows["lifetime fitness"] = (designed.lifetime, count(designed.lifetime.count, "lifetime"))
+    rows["random agents"] = (designed.random, count(designed.random.count, "agent"))
     intervals = [interval for interval, _ in rows.values()]
     texts = column(
         [value for interval in intervals for value in (interval.mean, interval.low, interval.high)]

@@ -1,114 +1,93 @@
-"""A run's state on disk: one file of plain arrays, replaced whole, so a killed run loses at most one generation."""
+"""A run's state on disk: one file of plain arrays with a digest, and inside it the identity of its run."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+import math
 from hashlib import sha256
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
-from zipfile import BadZipFile
+from zipfile import ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
+from numpy.lib import format as npy
 
-from bbsd.architecture import Architecture
-from bbsd.solver.champions import Champions
-from bbsd.solver.culture import Culture
-from bbsd.solver.generation import State
-from bbsd.version import REVISION
+from bbsd.files import write_whole
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from bbsd.runs.identity import Identity
+
+    Arrays = dict[str, NDArray[Any]]
+
 DIGEST_BYTES = 32
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RunState:
-    """How far a run is: its number (from 0), the state of its method, and its answer once there is one."""
-
-    run: int
-    state: State
-    answer: Architecture | None = None
+IDENTITY = "identity"
 
 
 class CheckpointError(Exception):
     """A checkpoint that cannot be resumed; the message says why."""
 
 
-def save(path: Path, reached: RunState) -> None:
+def save(path: Path, who: Identity, arrays: Arrays) -> None:
     """Write a run's state and its digest into a file, completely or not at all."""
-    part = path.with_suffix(".part")
-    part.write_bytes(packed(reached))
-    part.replace(path)
+    write_whole(path, packed(who, arrays))
 
 
-def packed(reached: RunState) -> bytes:
+def packed(who: Identity, arrays: Arrays) -> bytes:
     """Return the content of a checkpoint file: a digest, then the arrays."""
+    text = np.frombuffer(json.dumps(who.plain()).encode(), np.uint8)
     buffer = BytesIO()
-    np.savez(buffer, **_arrays(reached), allow_pickle=False)
+    np.savez(buffer, **{IDENTITY: text, **arrays}, allow_pickle=False)
     content = buffer.getvalue()
     return sha256(content).digest() + content
 
 
-def load(path: Path) -> RunState:
-    """Read a run's state from a file. Raises CheckpointError for a file that is damaged or of another revision."""
-    content = path.read_bytes()
+def load(path: Path, who: Identity) -> Arrays:
+    """Read the arrays of a run's state from a file.
+
+    Raises:
+        CheckpointError: the file is damaged, or of another run: the message names what differs.
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise CheckpointError(f"{path} cannot be read: {error.strerror}") from None
     digest, content = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
     if sha256(content).digest() != digest:
         raise CheckpointError(f"{path} is damaged: its digest does not match")
     try:
-        with np.load(BytesIO(content), allow_pickle=False) as file:
-            arrays = dict(file)
-        revision = int(arrays["revision"])
-        if revision == REVISION:
-            return _run_state(arrays)
-    except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError) as error:
+        arrays = _arrays(content)
+        theirs = json.loads(arrays.pop(IDENTITY).astype(np.uint8).tobytes())
+        different = who.differences(theirs)
+    except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError, AttributeError) as error:
         raise CheckpointError(f"{path} cannot be read: {error}") from None
-    raise CheckpointError(f"{path} was written by revision {revision} of bbsd; this is revision {REVISION}")
+    if different:
+        raise CheckpointError(f"{path} is of another run: different are {' and '.join(different)}")
+    return arrays
 
 
-def _arrays(reached: RunState) -> dict[str, NDArray[np.generic]]:
-    state = reached.state
-    return {
-        "revision": np.array(REVISION),
-        "run": np.array(reached.run),
-        "generation": np.array(state.generation),
-        **{f"pool_{index}": pool for index, pool in enumerate(state.pools)},
-        "fitness": state.fitness,
-        "memes": state.culture.memes,
-        "meme_fitness": state.culture.fitness,
-        "champion_tables": state.champions.tables,
-        "champion_structures": state.champions.structures,
-        "champion_fitness": state.champions.fitness,
-        "champion_capacity": np.array(state.champions.capacity),
-        **_answer_arrays(reached.answer),
-    }
+def _arrays(content: bytes) -> Arrays:
+    """Return the arrays of an archive; no more is allocated than the content has bytes."""
+    arrays: Arrays = {}
+    with ZipFile(BytesIO(content)) as archive:
+        for member in archive.infolist():
+            if member.compress_type != ZIP_STORED or member.file_size > len(content):
+                raise ValueError(f"{member.filename} is compressed")
+            with archive.open(member) as stream:
+                data = stream.read()
+            arrays[member.filename.removesuffix(".npy")] = _array(data, member.filename)
+    return arrays
 
 
-def _answer_arrays(answer: Architecture | None) -> dict[str, NDArray[np.generic]]:
-    if answer is None:
-        return {}
-    tables = {f"answer_{index}": table for index, table in enumerate(answer.tables)}
-    return {**tables, "answer_structure": answer.structure}
-
-
-def _run_state(arrays: dict[str, NDArray[Any]]) -> RunState:
-    pools = tuple(arrays[f"pool_{index}"] for index in range(len(arrays["fitness"])))
-    champions = Champions(
-        arrays["champion_tables"],
-        arrays["champion_structures"],
-        arrays["champion_fitness"],
-        int(arrays["champion_capacity"]),
-    )
-    culture = Culture(arrays["memes"], arrays["meme_fitness"])
-    state = State(int(arrays["generation"]), pools, arrays["fitness"], culture, champions)
-    return RunState(int(arrays["run"]), state, _answer(arrays))
-
-
-def _answer(arrays: dict[str, NDArray[Any]]) -> Architecture | None:
-    if "answer_structure" not in arrays:
-        return None
-    tables = tuple(arrays[f"answer_{index}"] for index in range(len(arrays["fitness"])))
-    return Architecture(tables, arrays["answer_structure"])
+def _array(data: bytes, name: str) -> NDArray[Any]:
+    stream = BytesIO(data)
+    if npy.read_magic(stream) != (1, 0):
+        raise ValueError(f"{name} is of another format")
+    shape, _, dtype = npy.read_array_header_1_0(stream)
+    if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - stream.tell():
+        raise ValueError(f"{name} has another size than it says")
+    stream.seek(0)
+    return np.asarray(npy.read_array(stream, allow_pickle=False))

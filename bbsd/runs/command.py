@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from bbsd.runs.run import generations, start
+from bbsd.runs.records import Journal
+from bbsd.runs.run import generations, run_key, start
+from bbsd.runs.searching import Course, Searching
+from bbsd.runs.state import RunState, restored_run, run_arrays
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.runs.folder import Folder
+    from bbsd.runs.identity import Identity
     from bbsd.runs.records import Records
     from bbsd.solver.settings import Settings
 
     Listener = Callable[[dict[str, Any]], None]
-    """Called with the metrics of each generation."""
+    """Called with each line of metrics."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +34,11 @@ class Command:
     seed: int
     n_runs: int
     folder: Folder
+    who: Identity
+    budgets: tuple[int, ...] = ()
+    """The budgets of each run, one after another; none for the paper's loop, which has generations."""
+    deadline: float | None = None
+    """When rounds end by the monotonic clock."""
 
     def with_threads(self, jobs: int) -> Command:
         """Return the same command with this number of threads in each run."""
@@ -38,19 +48,43 @@ class Command:
         """Return the records of a run, which counts from 0."""
         return self.folder.records(run, self.n_runs)
 
+    def reached(self, run: int) -> RunState | None:
+        """Return how far a run is, or None if it has not begun. Raises FolderError for damaged files."""
+        read = partial(restored_run, fresh=self._fresh(run), problem=self.problem)
+        return self.records(run).load(self.who, read)
+
     def answer(self, run: int) -> Architecture | None:
         """Return the answer of a run, or None if it is not complete. Raises FolderError for damaged files."""
-        reached = self.records(run).load()
-        return None if reached is None else reached.answer
+        reached = self.reached(run)
+        return reached.answer if reached is not None and self._is_complete(reached) else None
 
     def complete(self, run: int, listener: Listener | None = None) -> Architecture:
-        """Start or resume a run and return its answer; each generation is saved before it is reported."""
-        records = self.records(run)
-        reached = records.load() or start(self.problem, self.settings, self.seed, run)
-        for reached, line in generations(reached, self.problem, self.settings, self.seed):  # noqa: B020
-            records.save(reached, line)
-            if listener is not None and line is not None:
-                listener(line)
+        """Start or resume a run and return its answer; each line is written before it is reported."""
+        reached = self.reached(run) or self._fresh(run)
+        with Journal(self.records(run), self.who) as journal:
+            for reached, line in self._steps(reached):  # noqa: B020
+                journal.add(partial(run_arrays, reached), line)
+                if listener is not None and line is not None:
+                    listener(line)
         if reached.answer is None:
             raise RuntimeError("a run ended without an answer")
         return reached.answer
+
+    def _course(self, run: int) -> Course:
+        return Course(self.problem, self.settings, run_key(self.seed, run), run)
+
+    def _fresh(self, run: int) -> RunState:
+        """Return a run before its beginning."""
+        if self.settings.method == "paper":
+            return start(self.problem, self.settings, self.seed, run)
+        return self._course(run).start(self.budgets[0])
+
+    def _steps(self, reached: RunState) -> Iterator[tuple[RunState, dict[str, Any] | None]]:
+        if self.settings.method == "paper":
+            return generations(reached, self.problem, self.settings, self.seed)
+        return self._course(reached.run).steps(reached, self.budgets, self.deadline)
+
+    def _is_complete(self, reached: RunState) -> bool:
+        if isinstance(reached.state, Searching):
+            return reached.state.finished >= len(self.budgets)
+        return reached.answer is not None

@@ -10,42 +10,19 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bbsd.files import move, write_text_whole, write_whole
 from bbsd.runs.records import FolderError, Records
 from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
-FORMAT = 2
+    from bbsd.runs.identity import Identity
+
+FORMAT = 3
 """The format of `run.json`."""
-
-
-@dataclass(frozen=True, slots=True)
-class Identity:
-    """Identifies a design; resuming requires an equal one, by the same version and revision of bbsd."""
-
-    spec_digest: str
-    overrides: tuple[str, ...]
-    seed: int
-    runs: int
-
-    def plain(self) -> dict[str, Any]:
-        """Return the identity as `run.json` holds it."""
-        return {"bbsd": __version__, "revision": REVISION, **self.command()}
-
-    def command(self) -> dict[str, Any]:
-        """Return the part of the identity that the user chose."""
-        return {
-            "spec_sha256": self.spec_digest,
-            "set": list(self.overrides),
-            "seed": self.seed,
-            "runs": self.runs,
-        }
-
-
-def identity(spec_text: str, overrides: tuple[str, ...], seed: int, runs: int) -> Identity:
-    """Return the identity of a design."""
-    return Identity(sha256(spec_text.encode()).hexdigest(), overrides, seed, runs)
+DIGEST = "architecture_sha256"
+"""The key of a result under which the digest of the designed spec stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,26 +54,53 @@ class Folder:
         """Write the metrics of all runs, in their order, into one file."""
         if n_runs > 1:
             metrics = (self.records(run, n_runs).metrics.read_bytes() for run in range(n_runs))
-            self.metrics.write_bytes(b"".join(metrics))
+            write_whole(self.metrics, b"".join(metrics))
 
     def copy_spec(self, text: str) -> None:
         """Keep the spec as it is when the design begins."""
-        (self.path / "spec.yaml").write_text(text, encoding="utf-8")
+        write_text_whole(self.path / "spec.yaml", text)
 
     def write_architecture(self, text: str) -> None:
-        """Write the designed spec, unless there is one already: it may have been edited since."""
-        if not self.architecture.exists():
-            self.architecture.write_text(text, encoding="utf-8")
+        """Write the designed spec; one that was edited since is kept, beside a new one where there is one.
+
+        The digest in `run.json` proves that a file is what was written.
+        """
+        recorded = self.result().get(DIGEST)
+        there = self.architecture.read_bytes() if self.architecture.exists() else b""
+        if there and recorded and sha256(there).hexdigest() != recorded:
+            if digest_of(text) == recorded:
+                return
+            move(self.architecture, self.path / "architecture.edited.yaml")
+        if there != text.encode():
+            write_text_whole(self.architecture, text)
+
+    def result(self) -> dict[str, Any]:
+        """Return the result that `run.json` holds, empty where there is none."""
+        result = self.read_run_file().get("result")
+        return result if isinstance(result, dict) else {}
+
+    def budgets(self) -> tuple[int, ...]:
+        """Return the budgets that `run.json` holds."""
+        budgets = self.read_run_file().get("budgets")
+        return tuple(map(int, budgets)) if isinstance(budgets, list) else ()
 
     def lines(self) -> list[dict[str, Any]]:
         """Return the metrics of all generations. Raises FolderError for a damaged file."""
         return Records(self.path).lines()
 
-    def write_run_file(self, who: Identity, result: dict[str, Any] | None = None) -> None:
+    def write_run_file(
+        self,
+        who: Identity,
+        overrides: Sequence[str] = (),
+        budgets: Sequence[int] = (),
+        result: dict[str, Any] | None = None,
+    ) -> None:
         """Write `run.json`, with the result once there is one."""
         content = {
             "format": FORMAT,
             **who.plain(),
+            "set": list(overrides),
+            **({"budgets": list(budgets)} if budgets else {}),
             "versions": {name: version(name) for name in ("numba", "numpy", "llvmlite")},
             "machine": {
                 "python": platform.python_version(),
@@ -105,7 +109,7 @@ class Folder:
             },
             **({} if result is None else {"result": result}),
         }
-        self.run_file.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+        write_text_whole(self.run_file, json.dumps(content, indent=2) + "\n")
 
     def read_run_file(self) -> dict[str, Any]:
         """Return the content of `run.json`, empty where there is none or it is damaged."""
@@ -120,8 +124,17 @@ class Folder:
         return _agrees(self.read_run_file(), who.plain())
 
     def holds_other_version(self, who: Identity) -> bool:
-        """Return whether this is the folder of the same spec, seed, runs and settings by another version."""
-        return _agrees(self.read_run_file(), who.command()) and not self.holds(who)
+        """Return whether this is the folder of the same spec, seed and runs by another version."""
+        content = self.read_run_file()
+        chosen = who.command()
+        if "spec" not in content and "spec_sha256" in content:  # format 2 had a digest of the text
+            del chosen["spec"]
+        return _agrees(content, chosen) and not self.holds(who)
+
+
+def digest_of(text: str) -> str:
+    """Return the digest of a text that proves that a file of it is whole."""
+    return sha256(text.encode()).hexdigest()
 
 
 def _agrees(content: Mapping[str, Any], expected: Mapping[str, Any]) -> bool:
@@ -164,10 +177,16 @@ def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
         if folder.holds_other_version(who):
             raise FolderError(_other_version(folder))
     if wanted is not None:
-        raise FolderError(f"{wanted} holds no run of this spec with this seed, these runs and these settings")
+        raise FolderError(_other_run(folders[0], who))
     raise FolderError(
         "there is no run of this spec with this seed under runs/ that could be resumed; name its folder with --out"
     )
+
+
+def _other_run(folder: Folder, who: Identity) -> str:
+    content = folder.read_run_file()
+    different = f": different are {' and '.join(who.differences(content))}" if "spec" in content else ""
+    return f"{folder.path} holds no run of this spec with this seed, these runs and these settings{different}"
 
 
 def _other_version(folder: Folder) -> str:

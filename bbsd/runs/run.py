@@ -1,4 +1,4 @@
-"""A run: generation after generation, then its answer."""
+"""A run of the paper's loop: generation after generation, then its answer."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.meaning import seed_key
 from bbsd.runs import metrics
-from bbsd.runs.checkpoint import RunState
+from bbsd.runs.state import RunState
 from bbsd.solver.answer import answer
-from bbsd.solver.generation import initial_state, next_generation
+from bbsd.solver.generation import State, initial_state, next_generation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,6 +39,8 @@ def generations(
     the answer, and None.
     """
     run, state, key = reached.run, reached.state, run_key(seed, reached.run)
+    if not isinstance(state, State):
+        raise TypeError("this state is of another method")
     while state.generation < settings.coevolution.generations:
         state, census = next_generation(state, problem, settings, key)
         yield RunState(run, state), metrics.line(run, state, census, problem)

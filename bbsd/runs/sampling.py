@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from bbsd.evaluation import detailed_outcomes
 from bbsd.kernel.keys import keys
-from bbsd.runs import checkpoint, metrics
+from bbsd.runs import metrics
 from bbsd.runs.rehearsal import rehearse
+from bbsd.runs.state import RunState, run_arrays
 from bbsd.solver.generation import initial_state, next_generation
 from bbsd.solver.random_agents import random_agents
 
@@ -105,4 +106,4 @@ def _all_kernels(problem: Problem, settings: Settings, key: int) -> None:
 def _generation(state: State, problem: Problem, settings: Settings, key: int) -> None:
     following, census = next_generation(state, problem, settings, key)
     metrics.line(0, following, census, problem)
-    checkpoint.packed(checkpoint.RunState(0, following))
+    run_arrays(RunState(0, following))

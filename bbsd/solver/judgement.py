@@ -44,8 +44,11 @@ class Judgement:
 
     architecture: Architecture
     evaluation: Evaluation
-    lifetime: Interval
-    """Lifetime fitness, over agents that start with the design and go on learning their structure."""
+    lifetime: Interval | None
+    """Lifetime fitness, over agents that start with the design and go on learning their structure.
+
+    None for methods that have no lifetimes.
+    """
     random: Interval
     """Mean return of random agents of the same design space, each in episodes of its own, over agents."""
 
@@ -58,7 +61,7 @@ def judge(answers: Sequence[Architecture], problem: Problem, settings: Settings,
     generation = settings.coevolution.generations
     fresh = keys(fold(key, JUDGED), 0, settings.answer.judged)
     judged = evaluation(problem, detailed_outcomes(problem, agents_of([best]), fresh, generation), 1)
-    lifetime = _lifetime_fitness(best, problem, settings, key)
+    lifetime = _lifetime_fitness(best, problem, settings, key) if settings.method == "paper" else None
     return Judgement(best, judged, lifetime, _random_returns(problem, generation, fold(key, RANDOM)))
 
 

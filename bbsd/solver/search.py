@@ -46,14 +46,19 @@ def rounds(method: Method, state: SearchState, arena: Arena, key: int, budget: i
         yield state
 
 
-def final_race(state: SearchState, arena: Arena, key: int, episodes: int) -> Answer:
-    """Race the champions on common fresh episodes, in rounds that double, with so many episodes in all.
+def final_race(
+    state: SearchState, arena: Arena, key: int, episodes: int, first: Designs | None = None
+) -> Answer:
+    """Race the champions, and other designs before them, on common fresh episodes, in rounds that double.
 
-    Designs that behave alike count as one. What is left when the episodes are spent is decided by the mean.
+    It spends at most so many episodes in all. Designs that behave alike count as one. Among those that are left when
+    the episodes are spent, the mean decides.
     """
     stream, champions = fold(fold(key, FINAL), word_of(state.spent)), state.champions
-    few = max(1, episodes // (2 * FIRST_ROUND))
+    few = max(2, episodes // (2 * FIRST_ROUND))
     entrants = Designs(champions.tables[:few], champions.structures[:few])
+    if first is not None:
+        entrants = first.joined(entrants)
     running = arena.space.designs(distinct(arena.space.architectures(entrants), arena.problem))
     earned, spent = np.empty((len(running), 0)), 0
     while len(running) > 1:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from bbsd.solver.genetics import Breeding
 
 if TYPE_CHECKING:
-    from bbsd.language.design import Answer, Coevolution, CultureSettings, Learning
+    from bbsd.language.design import Answer, Coevolution, CultureSettings, Learning, MethodName
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.rates import Rates
 
@@ -17,6 +17,10 @@ if TYPE_CHECKING:
 class Settings:
     """The parts of a `design` block, their numbers cut to what the spec allows, and what is computed from them."""
 
+    method: MethodName
+    """The method that is named, or meant by the keys that are given."""
+    budget: int | None
+    """Episodes of a run in all; None where they are to be found automatically."""
     sharing: Literal["uniform", "value"]
     coevolution: Coevolution
     """With at most as many elites as individuals."""
@@ -58,6 +62,8 @@ def settings_of(meaning: Meaning) -> Settings:
     elites = min(design.coevolution.elites, design.coevolution.population)
     learning = design.learning
     return Settings(
+        method=design.chosen_method,
+        budget=design.episodes,
         sharing=design.sharing,
         coevolution=design.coevolution.model_copy(update={"elites": elites}),
         learning=with_lifetime(learning, learning.episodes if learned else learning.last),

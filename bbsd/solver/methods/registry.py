@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from bbsd.solver.methods.method import Method
 
 _METHODS: tuple[Method, ...] = (
+    societies.METHOD._replace(name="auto"),
     societies.METHOD,
     cross_entropy.METHOD,
     random_search.METHOD,

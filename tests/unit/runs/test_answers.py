@@ -1,14 +1,12 @@
 import pytest
 
 from bbsd.runs.answers import complete_runs
-from bbsd.runs.command import Command
-from bbsd.runs.folder import Folder
-from tests.unit.solver.problems import guess
+from tests.unit.runs.commands import command_of
 
 
 @pytest.fixture
 def command(tmp_path):
-    return Command(*guess(lanes=5), seed=11, n_runs=2, folder=Folder(tmp_path))
+    return command_of(tmp_path)
 
 
 def plain(architectures):

@@ -1,13 +1,16 @@
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from bbsd.runs.folder import Folder, FolderError, folder_to_resume, identity, new_folder
+from bbsd.runs.folder import DIGEST, Folder, FolderError, digest_of, folder_to_resume, new_folder
+from bbsd.runs.identity import Identity
 from bbsd.version import REVISION, __version__
 
-WHO = identity("a spec", ("design.sharing=value",), 3, 2)
+WHO = Identity((("environment", "a"), ("reward", "b")), 3, 2)
+OTHER = replace(WHO, spec=(("environment", "a"), ("reward", "c")))
 
 
 @pytest.fixture
@@ -36,25 +39,25 @@ def test_the_metrics_of_the_only_run_are_left_as_they_are(folder):
 
 
 def test_a_run_file_says_what_was_run_and_with_what(folder):
-    folder.write_run_file(WHO)
+    folder.write_run_file(WHO, ["design.sharing=value"], [300, 200])
     note = json.loads(folder.run_file.read_text())
-    assert (note["format"], note["seed"], note["runs"], note["set"]) == (2, 3, 2, ["design.sharing=value"])
+    assert (note["format"], note["seed"], note["runs"], note["set"]) == (3, 3, 2, ["design.sharing=value"])
     assert (note["bbsd"], note["revision"]) == (__version__, REVISION)
-    assert len(note["spec_sha256"]) == 64
+    assert note["spec"] == {"environment": "a", "reward": "b"}
+    assert folder.budgets() == (300, 200)
     assert "numba" in note["versions"]
     assert "result" not in note
-    folder.write_run_file(WHO, {"return": 5})
-    assert json.loads(folder.run_file.read_text())["result"] == {"return": 5}
+    folder.write_run_file(WHO, result={"return": 5})
+    assert folder.result() == {"return": 5}
 
 
 def test_a_folder_holds_only_an_equal_identity(folder):
     folder.write_run_file(WHO)
     assert folder.holds(WHO)
     others = [
-        identity("another spec", WHO.overrides, 3, 2),
-        identity("a spec", (), 3, 2),
-        identity("a spec", WHO.overrides, 4, 2),
-        identity("a spec", WHO.overrides, 3, 1),
+        OTHER,
+        replace(WHO, seed=4),
+        replace(WHO, runs=1),
     ]
     assert not any(folder.holds(other) for other in others)
 
@@ -109,11 +112,10 @@ def test_a_folder_that_cannot_be_read_is_an_error(tmp_path):
 
 def test_the_newest_default_folder_of_an_equal_identity_is_resumed(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    other = identity("a spec", (), 3, 2)
-    for who in (WHO, WHO, other):
+    for who in (WHO, WHO, OTHER):
         new_folder(None, "lift", 3).write_run_file(who)
     assert folder_to_resume(None, "lift", WHO).path == Path("runs/lift-seed3-2")
-    assert folder_to_resume(None, "lift", other).path == Path("runs/lift-seed3-3")
+    assert folder_to_resume(None, "lift", OTHER).path == Path("runs/lift-seed3-3")
     with pytest.raises(FolderError, match="there is no run"):
         folder_to_resume(None, "push", WHO)
 
@@ -123,6 +125,37 @@ def test_a_wanted_folder_must_have_an_equal_identity(tmp_path):
         folder_to_resume(tmp_path, "lift", WHO)
     Folder(tmp_path).write_run_file(WHO)
     assert folder_to_resume(tmp_path, "lift", WHO).path == tmp_path
+
+
+def test_what_differs_in_a_wanted_folder_is_named(folder):
+    folder.write_run_file(WHO)
+    with pytest.raises(FolderError, match="different are the spec's reward and the seed \\(3, not 4\\)"):
+        folder_to_resume(folder.path, "lift", replace(OTHER, seed=4))
+
+
+def test_a_designed_spec_that_was_edited_is_kept(folder):
+    folder.write_architecture("one\n")
+    folder.write_run_file(WHO, result={DIGEST: digest_of("one\n")})
+    folder.architecture.write_text("mine\n")
+    folder.write_architecture("one\n")
+    assert folder.architecture.read_text() == "mine\n"
+    folder.write_architecture("two\n")  # after a further budget
+    assert folder.architecture.read_text() == "two\n"
+    assert (folder.path / "architecture.edited.yaml").read_text() == "mine\n"
+
+
+def test_a_designed_spec_that_was_cut_short_is_written_again(folder):
+    folder.write_run_file(WHO, result={DIGEST: digest_of("one\n")})
+    folder.architecture.touch()
+    folder.write_architecture("one\n")
+    assert folder.architecture.read_text() == "one\n"
+
+
+def test_a_folder_of_an_older_format_is_told_from_another_run(folder):
+    folder.write_run_file(WHO)
+    rewrite(folder, spec=None, spec_sha256="a" * 64, revision=REVISION - 1)
+    with pytest.raises(FolderError, match="is a run of the same spec and seed by"):
+        folder_to_resume(folder.path, "lift", WHO)
 
 
 def rewrite(folder, **changed):
@@ -152,7 +185,7 @@ def test_what_another_revision_wrote_is_not_resumed(folder, changed, told):
     assert told in str(error.value)
     assert f"this is bbsd {__version__}, revision {REVISION}" in str(error.value)
     with pytest.raises(FolderError, match="holds no run of this spec"):  # another seed comes first
-        folder_to_resume(folder.path, "lift", identity("a spec", WHO.overrides, 4, 2))
+        folder_to_resume(folder.path, "lift", replace(WHO, seed=4))
 
 
 def test_default_folders_of_another_revision_are_passed_over(tmp_path, monkeypatch):

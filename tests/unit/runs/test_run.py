@@ -5,9 +5,11 @@ import pytest
 
 from bbsd.runs import checkpoint
 from bbsd.runs.run import generations, run_key, start
+from bbsd.runs.state import restored_run, run_arrays
 from bbsd.solver.judgement import judge
 from bbsd.solver.settings import settings_of
 from tests.unit.problems import RICH, problem_of
+from tests.unit.runs.commands import WHO
 from tests.unit.solver.problems import guess
 
 SEED, N_RUNS = 11, 2
@@ -24,10 +26,13 @@ def whole(problem, settings, path, n_runs=N_RUNS, at=None):
         while reached.answer is None:
             for progress, line in generations(reached, problem, settings, SEED):
                 lines.append(json.dumps(line))
-                checkpoint.save(path, progress)
+                checkpoint.save(path, WHO, run_arrays(progress))
                 reached = progress
                 if len(lines) == at:
-                    reached = checkpoint.load(path)  # what a resumed command goes on from
+                    fresh = start(problem, settings, SEED, run)
+                    reached = restored_run(
+                        checkpoint.load(path, WHO), fresh, problem
+                    )  # what a resumed command goes on from
                     break
         answers.append(reached.answer)
     return lines, path.read_bytes(), judged(judge(answers, problem, settings, SEED))

@@ -1,18 +1,17 @@
 from collections import deque
 from contextlib import nullcontext
+from dataclasses import replace
 
 import pytest
 
 from bbsd.errors import UsageError
 from bbsd.runs import workers
 from bbsd.runs.answers import complete_runs
-from bbsd.runs.command import Command
-from bbsd.runs.folder import Folder
 from bbsd.runs.processes import waiting_processes
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.workers import WorkerLost, side_by_side
 from bbsd.stopping import StopRequest
-from tests.unit.solver.problems import guess
+from tests.unit.runs.commands import WHO, command_of
 
 RUNS = 3
 
@@ -21,7 +20,7 @@ RUNS = 3
 def command(tmp_path):
     def make(name):
         (tmp_path / name).mkdir()
-        return Command(*guess(lanes=5), seed=11, n_runs=RUNS, folder=Folder(tmp_path / name))
+        return command_of(tmp_path / name, RUNS, replace(WHO, runs=RUNS))
 
     return make
 
