@@ -30,6 +30,7 @@ def designed(evaluation):
     return Designed(
         Path("runs/lifting-seed0/architecture.yaml"),
         Path("runs/lifting-seed0"),
+        "paper",
         ("stop_at_goal", "push_more"),
         evaluation,
         lifetime=Interval(299.2, 20.0, 296.2, 302.2, 200),

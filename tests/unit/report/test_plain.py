@@ -38,6 +38,7 @@ def test_a_design_as_plain_data(designed):
         "episodes": 1000,
         "lifetime": {"mean": 299.2, "sd": 20.0, "ci95": [296.2, 302.2]},
         "random": {"mean": -612.3, "sd": 300.0, "ci95": [-642.5, -582.1]},
+        "method": "paper",
         "structure": ["stop_at_goal", "push_more"],
         "seconds": 41.2,
         "seed": 7,
