@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.runs.records import Journal
 from bbsd.runs.run import generations, run_key, start
-from bbsd.runs.searching import Course, Searching
-from bbsd.runs.state import RunState, restored_run, run_arrays
+from bbsd.runs.searching import Course
+from bbsd.runs.state import RunState, Searching, restored_run, run_arrays
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -15,7 +15,7 @@ import numpy as np
 
 from bbsd.evaluation.sums import deviation, mean, row_means
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.runs.state import RunState
+from bbsd.runs.state import RunState, Searching
 from bbsd.solver.arena import Arena
 from bbsd.solver.methods.registry import METHODS
 from bbsd.solver.search import ROUNDS, final_race, search_budget
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
-    from bbsd.solver.methods.method import Method, SearchState
+    from bbsd.solver.methods.method import Method
     from bbsd.solver.settings import Settings
 
     Line = dict[str, Any]
@@ -47,33 +47,6 @@ LEAST_MEASURED = 40
 """Episodes of a record's measurements; with a small budget there are fewer records instead."""
 CHALLENGERS = 3
 """Champions that a record compares with the best so far."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Searching:
-    """How far a search is."""
-
-    search: SearchState
-    """The method's own state."""
-    best: Designs
-    """The best so far, one row; none before the first record."""
-    best_mean: float = 0.0
-    """Its mean return in episodes that took no part in choosing it, and their number."""
-    best_count: int = 0
-    finished: int = 0
-    """Budgets that are spent."""
-    begun: int = 0
-    """Episodes that rounds had spent when the present budget began, and when the last record was made."""
-    recorded: int = 0
-    measured: int = 0
-    """Episodes of measurements in the present budget."""
-    other: int = 0
-    """Episodes of races, and of measurements in former budgets."""
-
-    @property
-    def spent(self) -> int:
-        """All episodes so far."""
-        return self.search.spent + self.measured + self.other
 
 
 @dataclass(frozen=True)

@@ -21,9 +21,36 @@ if TYPE_CHECKING:
 
     from bbsd.compiler import Problem
     from bbsd.runs.checkpoint import Arrays
-    from bbsd.runs.searching import Searching
+    from bbsd.solver.methods.method import SearchState
 
 RUN, STATE, ANSWER = "run", "state.", "answer."
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Searching:
+    """How far a search is."""
+
+    search: SearchState
+    """The method's own state."""
+    best: Designs
+    """The best so far, one row; none before the first record."""
+    best_mean: float = 0.0
+    """Its mean return in episodes that took no part in choosing it, and their number."""
+    best_count: int = 0
+    finished: int = 0
+    """Budgets that are spent."""
+    begun: int = 0
+    """Episodes that rounds had spent when the present budget began, and when the last record was made."""
+    recorded: int = 0
+    measured: int = 0
+    """Episodes of measurements in the present budget."""
+    other: int = 0
+    """Episodes of races, and of measurements in former budgets."""
+
+    @property
+    def spent(self) -> int:
+        """All episodes so far."""
+        return self.search.spent + self.measured + self.other
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,7 +3,8 @@ import json
 import pytest
 
 from bbsd.runs.command import Command
-from bbsd.runs.searching import ANSWER, SEARCH, Searching
+from bbsd.runs.searching import ANSWER, SEARCH
+from bbsd.runs.state import Searching
 from bbsd.solver.methods.registry import METHODS
 from tests.unit.runs.commands import search_of
 
