@@ -339,11 +339,11 @@ SPEC_KINDS = (
     ),
     DiagnosisKind(
         code="BB071",
-        title="exploration without effect",
+        title="a setting of learning without effect",
         explanation=(
             "Exploration tries random structures in the episodes of a lifetime before the last ones. It does "
             "nothing where there is no structure to learn, where all episodes are last ones, and in methods other than "
-            "paper."
+            "paper; nor does what becomes of an explored structure, or of what is outside of the present one."
         ),
         example="design:\n  method: random\n  learning:\n    exploration: 0.1",
         mend="design:\n  method: random",

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.architecture import Architecture
+from bbsd.language.meaning.tables.table import NO_ACTION
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,6 +36,13 @@ class Agents:
     def with_structures(self, structures: Integers) -> Agents:
         """Return the same agents with other structures."""
         return Agents(self.pools, self.members, structures)
+
+    def held(self, behavior: int) -> Agents:
+        """Return the same agents with one of their behaviors held to No Action, its given cells too."""
+        pools, members = list(self.pools), self.members.copy()
+        pools[behavior] = np.full_like(self.pools[behavior][:1], NO_ACTION)
+        members[:, behavior] = 0
+        return Agents(tuple(pools), members, self.structures)
 
     def architecture(self, agent: int) -> Architecture:
         """Return the architecture of one agent."""

@@ -83,10 +83,20 @@ class Learning(Part):
         "joint",
         description="What is learned of a behavior in a layer: Ṽ by (13), or V by (11) and counted probabilities.",
     )
+    outside: Literal["keep", "decay"] = Field(
+        "keep",
+        description="What happens to Ṽ of a pair of layer and behavior that is not in the present structure: "
+        "it stays, or it moves toward 0 as (13) says literally.",
+    )
     exploration: ExpressionText = Field(
         _default("0"),
         description="Probability of a random structure in an episode, never in the last ones; "
         "may use episode, episodes.",
+    )
+    explored: Literal["kept", "dropped"] = Field(
+        "kept",
+        description="Whether a random structure that was explored is the one that the next ones compete with, "
+        "or that of before.",
     )
     search: Literal["sampled", "exact"] = Field(
         "sampled",
@@ -146,8 +156,10 @@ class Design(Part):
         le=64,
         description="Open layers where no structure is given; by default one for each behavior.",
     )
-    sharing: Literal["uniform", "value"] = Field(
-        "uniform", description="How agents' fitness is shared: (15) or (17)."
+    sharing: Literal["uniform", "value", "difference"] = Field(
+        "uniform",
+        description="How agents' fitness is shared: (15), (17), or by what an agent earns less with the behavior "
+        "held to No Action.",
     )
     coevolution: Coevolution = Field(Coevolution(), description="Cooperative co-evolution of the behaviors.")
     learning: Learning = Field(Learning(), description="Learning of the structure.")

@@ -81,9 +81,10 @@ def price(
     """
     processes = min(n_runs, jobs)
     sampled = replace(problem, jobs=jobs // processes)
-    measured = sample(sampled, settings, fold(seed_key(seed), SAMPLE))
+    measured = sample(sampled, replace(settings, sharing="uniform"), fold(seed_key(seed), SAMPLE))
     generations, agents = settings.coevolution.generations, settings.coevolution.agents
-    learning, raced = generations * _lifetimes(settings), _raced(settings)
+    learning = generations * (_lifetimes(settings) + _differences(problem, settings))
+    raced = _raced(settings)
     episode = measured.episode / measured.speedup
     rounds = -(-n_runs // processes)
     run = generations * measured.generation(agents) + (learning + raced) * episode
@@ -125,6 +126,14 @@ def _tables(problem: Problem) -> tuple[TablePrice, ...]:
 def _lifetimes(settings: Settings) -> int:
     """Return the episodes of one generation."""
     return settings.coevolution.agents * settings.learning.episodes
+
+
+def _differences(problem: Problem, settings: Settings) -> int:
+    """Return the episodes of one generation that run again with a behavior held to No Action."""
+    if settings.sharing != "difference":
+        return 0
+    evolving = sum(problem.evolves(behavior) for behavior in range(problem.n_behaviors))
+    return settings.coevolution.agents * settings.learning.last * evolving
 
 
 def _raced(settings: Settings) -> int:

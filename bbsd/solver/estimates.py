@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.compiler import DetailedOutcome, Outcome, Team
+    from bbsd.language.design import Learning
 
 Seen = TypeVar("Seen")
 """The outcome of an episode, in the detail that an estimate needs."""
@@ -43,6 +44,8 @@ class JointEstimate:
     """Ṽ_ij as one number, updated by (13)."""
 
     values: NDArray[np.float64]
+    outside: Literal["keep", "decay"] = "keep"
+    """Whether pairs outside of the present structure keep their value, or decay."""
 
     def run_episode(self, team: Team, keys: NDArray[np.uint64], structures: NDArray[np.int64]) -> Outcome:
         """Run an episode of every agent."""
@@ -50,7 +53,8 @@ class JointEstimate:
 
     def update(self, structures: NDArray[np.int64], outcome: Outcome, rate: float) -> None:
         """Apply (13) once, with rate α, to what each agent's behaviors earned."""
-        update_values(self.values, structures, outcome.credit, rate)
+        update = update_values if self.outside == "keep" else update_all_values
+        update(self.values, structures, outcome.credit, rate)
 
 
 @dataclass(slots=True, eq=False)
@@ -91,11 +95,11 @@ class CountedEstimate:
             self.controlled[agents, layer, behaviors] += controlled
 
 
-def no_experience(kind: Literal["joint", "counters"], shape: tuple[int, ...]) -> Estimate[Any]:
+def no_experience(learning: Learning, shape: tuple[int, ...]) -> Estimate[Any]:
     """Return what agents have learned before their first episode: zeros (n_agents, n_layers, n_behaviors)."""
-    if kind == "counters":
+    if learning.estimate == "counters":
         return CountedEstimate(np.zeros(shape), np.zeros(shape), np.zeros(shape[0]))
-    return JointEstimate(np.zeros(shape))
+    return JointEstimate(np.zeros(shape), learning.outside)
 
 
 @jit
@@ -118,3 +122,15 @@ def update_values(
             behavior = structures[agent, layer]
             old = values[agent, layer, behavior]
             values[agent, layer, behavior] = (1.0 - rate) * old + rate * credit[agent, behavior]
+
+
+def update_all_values(
+    values: NDArray[np.float64], structures: NDArray[np.int64], credit: NDArray[np.float64], rate: float
+) -> None:
+    """Apply (13) once, in place, literally: all pairs move toward what they earned, those outside toward 0.
+
+    The arguments are those of `update_values`.
+    """
+    agents, layers = np.ogrid[: structures.shape[0], : structures.shape[1]]
+    values *= 1.0 - rate
+    values[agents, layers, structures] += rate * credit[agents, structures]

@@ -89,7 +89,7 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
     # For a lifetime: choose T* (9), interact, receive reinforcement, update the values (13).
     streams = keys(fold(key, LIFETIMES), 0, len(agents))
     lifetimes = run_lifetimes(problem, agents, streams, generation, settings)
-    # Return fitness (14) and the final structure; share fitness to behaviors by (15) or (17).
+    # Return fitness (14) and the final structure; share fitness to behaviors by (15), (17) or differences.
     fitness = sharing.agent_fitness(lifetimes.returns, settings.learning.last)
     shared = share(fitness, lifetimes, chosen, settings)
     # Update the meme pool using T* and its fitness (22).
@@ -117,6 +117,8 @@ def share(
     """Return the fitness of individuals (n_behaviors, population) by the sharing policy."""
     if settings.sharing == "uniform":
         return sharing.uniform(fitness, members, settings.coevolution.population)
+    if lifetimes.differences is not None:
+        return sharing.difference_based(lifetimes.differences, members, settings.coevolution.population)
     return sharing.value_based(lifetimes.values, members, settings.coevolution.population)
 
 

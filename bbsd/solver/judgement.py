@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -75,5 +75,6 @@ def _lifetime_fitness(best: Architecture, problem: Problem, settings: Settings, 
     n_agents = settings.coevolution.agents
     agents = agents_of([best])[np.zeros(n_agents, np.int64)]
     streams = keys(fold(key, LIFETIMES), 0, n_agents)
-    lifetimes = run_lifetimes(problem, agents, streams, settings.coevolution.generations, settings)
+    unshared = replace(settings, sharing="uniform")  # nobody's fitness is shared here
+    lifetimes = run_lifetimes(problem, agents, streams, settings.coevolution.generations, unshared)
     return interval(row_means(lifetimes.returns))

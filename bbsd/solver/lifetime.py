@@ -10,6 +10,7 @@ import numpy as np
 from bbsd.evaluation import require_finite
 from bbsd.kernel.keys import folded, units
 from bbsd.kernel.streams import name_word
+from bbsd.solver.differences import Differences
 from bbsd.solver.estimates import no_experience
 from bbsd.solver.structures import random_structures, search_exact, search_sampled
 from bbsd.stopping import raise_if_stopped
@@ -36,6 +37,11 @@ class Lifetimes:
     returns: NDArray[np.float64]
     structures: NDArray[np.int64]
     values: NDArray[np.float64]
+    differences: NDArray[np.float64] | None = None
+    """What an agent earns less in its last K episodes with each behavior held to No Action, (n_agents, n_behaviors).
+
+    None where fitness is not shared by it.
+    """
 
 
 def run_lifetimes(
@@ -46,17 +52,19 @@ def run_lifetimes(
     In the first episode an agent has the structure that it was given.
     """
     team = problem.assemble(agents.pools, agents.members, generation)
-    structures = agents.structures
-    estimate = no_experience(settings.learning.estimate, (*structures.shape, problem.n_behaviors))
+    incumbents = agents.structures
+    estimate = no_experience(settings.learning, (*incumbents.shape, problem.n_behaviors))
     returns = np.empty((len(agents), settings.learning.episodes))
+    differences = Differences(problem, agents, generation) if settings.sharing == "difference" else None
     episodes, searches, explorations = (folded(keys, purpose) for purpose in (EPISODE, SEARCH, EXPLORE))
     # For a lifetime do
     for episode in range(1, settings.learning.episodes + 1):
         raise_if_stopped()
+        structures = incumbents
         # Select the architecture T* that maximizes (9); skip if it is fixed.
         if settings.learned and episode > 1:
-            structures = choose(problem, folded(searches, episode), estimate.values, structures, settings)
-            structures = explore(problem, explorations, structures, settings, episode)
+            incumbents = choose(problem, folded(searches, episode), estimate.values, incumbents, settings)
+            structures = explore(problem, explorations, incumbents, settings, episode)
         # Let the agent interact with the environment, receive reinforcement.
         streams = folded(episodes, episode)
         outcome = estimate.run_episode(team, streams, structures)
@@ -66,7 +74,12 @@ def run_lifetimes(
         returns[:, episode - 1] = outcome.returns
         # Update the estimates, (13), by the learning rate of the episode.
         estimate.update(structures, outcome, settings.rates.learning[episode - 1])
-    return Lifetimes(returns, structures, estimate.values)
+        if differences is not None and episode > settings.learning.episodes - settings.learning.last:
+            differences.add(streams, structures, outcome.returns, where)
+        if settings.learning.explored == "kept":
+            incumbents = structures
+    compared = None if differences is None else differences.means
+    return Lifetimes(returns, structures, estimate.values, compared)
 
 
 def choose(

@@ -21,7 +21,7 @@ class Settings:
     """The method that is named, or meant by the keys that are given."""
     budget: int | None
     """Episodes of a run in all; None where they are to be found automatically."""
-    sharing: Literal["uniform", "value"]
+    sharing: Literal["uniform", "value", "difference"]
     coevolution: Coevolution
     """With at most as many elites as individuals."""
     learning: Learning

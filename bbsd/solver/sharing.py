@@ -63,6 +63,23 @@ def value_based(
     return mean_of_agents(contributions(values), members, population)
 
 
+def difference_based(
+    differences: NDArray[np.float64], members: NDArray[np.int64], population: int
+) -> NDArray[np.float64]:
+    """Return individuals' fitness by what each agent that they took part in earns less without them, as a mean.
+
+    Args:
+        differences: an agent's fitness minus what it earns in the same episodes with the behavior held to No Action,
+            (n_agents, n_behaviors).
+        members: (n_agents, n_behaviors).
+        population: individuals a pool.
+
+    Returns:
+        (n_behaviors, population), -inf for an individual that was never drawn.
+    """
+    return mean_of_agents(differences, members, population)
+
+
 def contributions(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (16), what each behavior contributes in all layers: its sum of Ṽ; (n_agents, n_behaviors)."""
     return in_order(values.swapaxes(0, 1))

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.mistakes import KEY
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from bbsd.expression.scope import Findings
     from bbsd.language.design import Design
 
 
 def report_contradictions(design: Design, findings: Findings, *, structure_is_open: bool) -> None:
-    """Report a budget beside generations, and exploration that has no effect."""
+    """Report a budget beside generations, and settings of learning that have no effect."""
     if (
         design.chosen_method == "paper"
         and design.episodes is not None
@@ -21,30 +23,47 @@ def report_contradictions(design: Design, findings: Findings, *, structure_is_op
         message = "the generations are given too, and the budget would have no effect"
         advice = "leave out design.coevolution.generations: they follow from the budget"
         findings.report(("design", "budget"), "BB070", message, KEY, advice)
-    if design.learning.exploration.text not in ("0", "0.0") and (
-        reason := _why_no_exploration(design, structure_is_open=structure_is_open)
-    ):
-        findings.report(("design", "learning", "exploration"), "BB071", f"this has no effect: {reason}", KEY)
+    for key, reason in _without_effect(design, structure_is_open=structure_is_open):
+        findings.report(("design", "learning", key), "BB071", f"this has no effect: {reason}", KEY)
 
 
-def _why_no_exploration(design: Design, *, structure_is_open: bool) -> str:
-    """Return why exploration has no effect, or ""."""
-    if design.chosen_method != "paper":
-        return f"the method {design.chosen_method} does not learn structures in lifetimes"
-    if not structure_is_open:
-        return "there is no structure to learn"
-    if design.learning.last >= design.learning.episodes:
-        return (
-            f"all {design.learning.episodes} episodes of a lifetime are among the last {design.learning.last}"
-        )
-    return ""
+def _without_effect(design: Design, *, structure_is_open: bool) -> Iterator[tuple[str, str]]:
+    """Yield the settings of learning that have no effect, and why."""
+    learning = design.learning
+    explores = learning.exploration.text not in ("0", "0.0")
+    changed = {
+        "exploration": explores,
+        "explored": learning.explored != "kept",
+        "outside": learning.outside != "keep",
+    }
+    for key in (key for key, is_changed in changed.items() if is_changed):
+        if design.chosen_method != "paper":
+            yield key, f"the method {design.chosen_method} does not learn structures in lifetimes"
+        elif not structure_is_open:
+            yield key, "there is no structure to learn"
+        elif key == "explored" and not explores:
+            yield key, "there is no exploration"
+        elif key == "outside" and learning.estimate == "counters":
+            yield key, "only Ṽ of (13) decays, and the estimate is by counters"
+        elif key == "exploration" and learning.last >= learning.episodes:
+            yield (
+                key,
+                f"all {learning.episodes} episodes of a lifetime are among the last {learning.last}",
+            )
 
 
-def with_generations(design: Design, *, structure_is_open: bool) -> Design:
-    """Return the settings with the generations that follow from a budget, where the paper's loop has one."""
+def with_generations(design: Design, *, structure_is_open: bool, evolving: int) -> Design:
+    """Return the settings with the generations that follow from a budget, where the paper's loop has one.
+
+    A generation runs the lifetimes of its agents, and where fitness is shared by differences, their last episodes again
+    for each behavior that evolves.
+    """
     if design.chosen_method != "paper" or design.episodes is None:
         return design
-    lifetime = design.learning.episodes if structure_is_open else design.learning.last
+    learning = design.learning
+    lifetime = learning.episodes if structure_is_open else learning.last
+    if design.sharing == "difference":
+        lifetime += min(learning.last, lifetime) * evolving
     generations = max(1, design.episodes // (design.coevolution.agents * lifetime))
     coevolution = design.coevolution.model_copy(update={"generations": generations})
     return design.model_copy(update={"coevolution": coevolution})

@@ -58,7 +58,9 @@ def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings
     episode = elaborate_episode(Names(spec, graph, findings, constants, definitions, unusable))
     structure = elaborate_structure(spec, findings, broken)
     report_contradictions(spec.design, findings, structure_is_open=structure.is_open)
-    design = with_generations(spec.design, structure_is_open=structure.is_open)
+    modules = () if episode is None else episode.modules
+    evolving = sum(module.table.is_open and structure.may_hold(index) for index, module in enumerate(modules))
+    design = with_generations(spec.design, structure_is_open=structure.is_open, evolving=evolving)
     spec = spec.model_copy(update={"design": design}) if design is not spec.design else spec
     shared = {name: Shared(value) for name, value in constants.values.items()} | unusable
     rates = evaluate_rates(spec, graph, findings, shared)

@@ -125,7 +125,7 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
         ("design: {coevolution: {elites: -1}}", "elites must be a whole number from 0 on, not -1"),
         (
             "design: {sharing: valu}",
-            'sharing must be uniform or value, not text "valu"; did you mean "value"?',
+            'sharing must be uniform or value or difference, not text "valu"; did you mean "value"?',
         ),
         ("design: {culture: 3}", "culture must be a mapping or none, not 3"),
         ("structure: stop", 'structure must be a list of behaviors, not text "stop"'),

@@ -35,7 +35,10 @@ def test_a_description_of_several_lines_is_paragraphs_and_no_block_of_code(monke
     "row",
     [
         "| `robots` | whole number, 1 to 64 | 1 | Robots that carry the architecture. |",
-        "| `sharing` | `uniform` or `value` | `uniform` | How agents' fitness is shared: (15) or (17). |",
+        (
+            "| `sharing` | `uniform` or `value` or `difference` | `uniform` | How agents' fitness is shared: (15), "
+            "(17), or by what an agent earns less with the behavior held to No Action. |"
+        ),
         "| `excited` | expression |  | Where the behavior is excited; by default always. |",
         "| `steps` | whole number, 1 to 10,000,000 | required | Steps of an episode at most. |",
     ],

@@ -135,16 +135,24 @@ def test_a_given_structure_is_everybody_s_and_no_culture():
     assert len(states[2].culture) == 0
 
 
-@pytest.mark.parametrize("policy", ["uniform", "value"])
+@pytest.mark.parametrize("policy", ["uniform", "value", "difference"])
 def test_fitness_is_shared_by_the_policy_of_the_spec(policy):
     _, settings = guess(sharing=policy)
     rng = np.random.default_rng(1)
     fitness, values = rng.normal(size=6), rng.normal(size=(6, 3, 3))
     who = rng.integers(0, 5, (6, 3))
-    lives = Lifetimes(np.zeros((6, 4)), np.zeros((6, 3), np.int64), values)
-    expected = (
-        sharing.uniform(fitness, who, 5) if policy == "uniform" else sharing.value_based(values, who, 5)
+    differences = rng.normal(size=(6, 3))
+    lives = Lifetimes(
+        np.zeros((6, 4)),
+        np.zeros((6, 3), np.int64),
+        values,
+        differences if policy == "difference" else None,
     )
+    expected = {
+        "uniform": sharing.uniform(fitness, who, 5),
+        "value": sharing.value_based(values, who, 5),
+        "difference": sharing.difference_based(differences, who, 5),
+    }[policy]
     np.testing.assert_array_equal(share(fitness, lives, who, settings), expected)
 
 

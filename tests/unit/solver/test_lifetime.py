@@ -5,6 +5,7 @@ import pytest
 
 from bbsd.evaluation import Agents, RewardNotFinite
 from bbsd.kernel.keys import keys
+from bbsd.solver import lifetime as module
 from bbsd.solver.lifetime import explore, run_lifetimes
 from bbsd.solver.random_agents import random_agents
 from tests.unit.problems import problem_of
@@ -74,6 +75,32 @@ def test_exploring_agents_have_random_structures_but_not_in_the_last_episodes():
     for episode in (3, 4):
         np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, often, episode), present)
     np.testing.assert_array_equal(explore(problem, keys(1, 0, 4000), present, never, 2), present)
+
+
+@pytest.mark.parametrize("explored", ["kept", "dropped"])
+def test_the_next_structures_compete_with_what_was_explored_or_with_what_was_before(explored, monkeypatch):
+    problem, settings = guess()
+    agents = random_agents(problem, 1, 200)
+    settings = learning(settings, episodes=4, last=1, explored=explored)
+    settings = replace(settings, rates=replace(settings.rates, exploration=(0.0, 0.5, 0.5, 0.5)))
+    competing, lived = [], []
+    chosen, run = module.choose, module.explore
+
+    def choosing(*arguments):
+        competing.append(arguments[3])
+        return chosen(*arguments)
+
+    def exploring(*arguments):
+        lived.append((arguments[2], run(*arguments)))
+        return lived[-1][1]
+
+    monkeypatch.setattr(module, "choose", choosing)
+    monkeypatch.setattr(module, "explore", exploring)
+    lives = run_lifetimes(problem, agents, keys(5, 0, 200), 1, settings)
+    for present, (before, after) in zip(competing[1:], lived[:-1], strict=True):
+        assert (before != after).any()
+        np.testing.assert_array_equal(present, after if explored == "kept" else before)
+    np.testing.assert_array_equal(lives.structures, lived[-1][0])  # the last episodes explore nothing
 
 
 def test_by_counters_a_pair_is_worth_its_share_of_the_reinforcement():

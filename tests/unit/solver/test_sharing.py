@@ -2,7 +2,15 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.solver.sharing import agent_fitness, contributions, lenient, lifetime_fitness, uniform, value_based
+from bbsd.solver.sharing import (
+    agent_fitness,
+    contributions,
+    difference_based,
+    lenient,
+    lifetime_fitness,
+    uniform,
+    value_based,
+)
 
 RETURNS = np.array([[1.0, 2.0, 6.0], [0.0, -4.0, 1.0]])
 MEMBERS = np.array([[0, 2], [1, 2], [0, 0]])  # three agents of two behaviors, from pools of three
@@ -57,6 +65,16 @@ def test_value_based_sharing_averages_contributions():
         [-1.0, -np.inf, 5.25],  # 0: -1; 1: none; 2: (10 + 0.5) / 2
     ]
     np.testing.assert_array_equal(value_based(values, MEMBERS, 3), expected)
+
+
+def test_sharing_by_differences_averages_over_the_agents_an_individual_took_part_in():
+    # What each of three agents earns less with its first and with its second behavior held to No Action.
+    differences = np.array([[5.0, -1.0], [2.0, 0.0], [-3.0, 4.0]])
+    expected = [
+        [1.0, 2.0, -np.inf],  # 0: (5 - 3) / 2; 1: 2; 2: none
+        [4.0, -np.inf, -0.5],  # 0: 4; 1: none; 2: (-1 + 0) / 2
+    ]
+    np.testing.assert_array_equal(difference_based(differences, MEMBERS, 3), expected)
 
 
 @given(st.integers(0, 2**32), st.floats(-100, 100))

@@ -42,6 +42,14 @@ def test_generations_of_the_paper_s_loop_follow_from_a_budget() -> None:
     assert len(meaning_of(both).rates.hard_mutation) == 100
 
 
+def test_sharing_by_differences_takes_the_last_episodes_again_for_each_behavior_that_evolves() -> None:
+    loop = "method: paper, budget: 100_000, coevolution: {agents: 100}, learning: {episodes: 10, last: 5}"
+    given = TWO.replace("speed: 1}}}", "speed: 1}}, rules: [otherwise: up]}")
+    for text, episodes in ((TWO, 10 + 2 * 5), (given, 10 + 5)):
+        design = meaning_of(f"{text}design: {{{loop}, sharing: difference}}").spec.design
+        assert design.coevolution.generations == 100_000 // (100 * episodes)
+
+
 def test_a_budget_beside_generations_is_a_mistake_of_the_paper_s_loop_alone() -> None:
     both = "budget: 100_000, coevolution: {generations: 5}"
     assert codes(f"design: {{{both}}}") == ["BB070"]
@@ -56,3 +64,20 @@ def test_exploration_without_effect_is_a_mistake() -> None:
     assert codes(f"{TWO}design: {{method: random, {learning}}}") == ["BB071"]
     assert codes(f"{TWO}design: {{{learning.replace('4', '10')}}}") == ["BB071"]
     assert codes("design: {learning: {exploration: 0}}") == []
+
+
+@pytest.mark.parametrize("setting", ["outside: decay", "explored: dropped, exploration: 0.1"])
+def test_settings_of_a_lifetime_without_effect_are_mistakes(setting: str) -> None:
+    design = f"learning: {{{setting}}}"
+    number = setting.count(":")
+    assert codes(f"{TWO}design: {{{design}}}") == []
+    assert codes(f"design: {{{design}}}") == ["BB071"] * number  # one behavior: no structure to learn
+    assert codes(f"{TWO}design: {{method: random, {design}}}") == ["BB071"] * number
+
+
+def test_what_becomes_of_explored_structures_matters_only_where_there_is_exploration() -> None:
+    assert codes(f"{TWO}design: {{learning: {{explored: dropped}}}}") == ["BB071"]
+
+
+def test_counters_do_not_decay() -> None:
+    assert codes(f"{TWO}design: {{learning: {{outside: decay, estimate: counters}}}}") == ["BB071"]
