@@ -36,6 +36,9 @@ claims: $(VENV)/.demo
 worlds: $(VENV)/.demo
 	$(BIN)/python -m experiments.worlds $(WORLD)
 
+optimum: $(VENV)/.demo
+	$(BIN)/python -m experiments.optimum $(SPEC)
+
 arms: $(VENV)/.demo
 	$(BIN)/python -m experiments.arms
 
