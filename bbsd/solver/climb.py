@@ -1,19 +1,20 @@
 """A paired climb: single changes of one design, tried in the same episodes as the design itself until none helps.
 
 All changes get the same few episodes; those that change nothing or are clearly worse are dropped, and the others get
-twice as many, until one is clearly better or the last round is over. A climb is a plain value that can be written down
-between two rounds.
+twice as many, until one is clearly better or the last round is over. A changed cell need only be tried in the episodes
+in which the design asks the cell, since the others are the same to the bit. A climb is a plain value that can be
+written down between two rounds.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import fsum
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bbsd.evaluation.sums import mean as mean_of
-from bbsd.evaluation.sums import row_means
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.changes import changes_of
 from bbsd.solver.space import uniforms
@@ -39,8 +40,10 @@ WORSE = 2.5
 """Standard errors below the design at which a change is dropped."""
 MOST_TOGETHER = 16
 """Accepted changes that are tried together."""
-MOST_BYTES = 1 << 24
-"""Tables of changed designs that are in memory at once."""
+SILENT = 20
+"""Episodes with the cell asked after which a change that never changed a return is dropped."""
+MOST_BYTES, MOST_EPISODES_AT_ONCE = 1 << 24, 40_000
+"""Tables of changed designs that are in memory at once, and episodes between two looks at a request to stop."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -60,8 +63,10 @@ class Climb:
     """The mean of what each earned more than the design in the same episodes, (n,)."""
     squares: NDArray[np.float64]
     """The sum of the squared deviations from that mean, (n,)."""
+    tried: NDArray[np.int64]
+    """The episodes in which each was tried, since the design asked the cell, (n,)."""
     episodes: int = 0
-    """Common episodes of the design and each of these changes; 0 where a pass begins."""
+    """Episodes of the design in which these gains were earned; 0 where a pass begins."""
     whole: bool = True
     """Whether no change was left out of the pass because the budget was short."""
     passes: int = 0
@@ -74,10 +79,8 @@ class Climb:
 
 def begin_climb(design: Designs) -> Climb:
     """Return the climb from one design before its first round."""
-    nothing = np.empty(0)
-    return Climb(
-        design=design, mean=float("nan"), running=np.empty(0, np.int64), gains=nothing, squares=nothing
-    )
+    none, nothing = np.empty(0, np.int64), np.empty(0)
+    return Climb(design=design, mean=float("nan"), running=none, gains=nothing, squares=nothing, tried=none)
 
 
 def advance_climb(
@@ -97,65 +100,85 @@ def advance_climb(
     changes = changes_of(arena.space, climb.design)
     if climb.at_optimum or not len(changes):
         return replace(climb, at_optimum=True)
-    stream = fold(key, word_of(climb.passes))
     if not climb.episodes:
-        zeros = np.zeros(len(changes))
-        climb = replace(climb, running=np.arange(len(changes)), gains=zeros, squares=zeros, whole=True)
-    climb, count = _affordable(climb, stream, budget, most_episodes)
-    climb = _compared(climb, changes, arena, fold(stream, PAIRED), count)
+        climb = _with_changes(climb, np.arange(len(changes)))
+    stream = fold(key, word_of(climb.passes))
+    climb = _compared(climb, changes, arena, stream, budget, most_episodes)
     scores, last = _scores(climb), climb.episodes >= most_episodes
     better = np.flatnonzero(scores > (BETTER_AT_LAST if last else BETTER))
     if len(better) and climb.episodes >= FEWEST_EPISODES:
         return _changed(climb, changes, better, arena, fold(stream, TOGETHER), budget)
-    climb = _with_running(climb, np.flatnonzero(scores >= -WORSE))
+    silent = (climb.tried >= SILENT) & (climb.gains == 0) & (climb.squares == 0)
+    climb = _with_running(climb, np.flatnonzero((scores >= -WORSE) & ~silent))
     if last or not len(climb.running):
         return _after_pass(climb, at_optimum=climb.whole)
     return climb
 
 
-def _affordable(climb: Climb, stream: int, budget: int, most_episodes: int) -> tuple[Climb, int]:
-    """Return the climb with as many changes as the rest of the budget pays for, and the round's episodes."""
-    left = budget - climb.spent
+def _compared(
+    climb: Climb, changes: Changes, arena: Arena, stream: int, budget: int, most_episodes: int
+) -> Climb:
+    """Return the climb after more episodes of the design and of as many changes as the budget pays for."""
+    left, paired = budget - climb.spent, fold(stream, PAIRED)
     count = min(max(climb.episodes, FIRST_EPISODES), most_episodes - climb.episodes, max(1, left // 2))
-    few = left // count - 1
-    if few >= len(climb.running):
-        return climb, count
-    promise = _scores(climb) if climb.episodes else uniforms(fold(stream, SOME), climb.running.shape)
-    best = np.sort(np.argsort(-promise, kind="stable")[:few])
-    return replace(_with_running(climb, best), whole=False), count
-
-
-def _compared(climb: Climb, changes: Changes, arena: Arena, stream: int, count: int) -> Climb:
-    """Return the climb after more common episodes; what changes nothing in the first of them is dropped."""
-    together = max(1, MOST_BYTES // climb.design.tables.size)
-    own = arena.returns(climb.design, stream, count, first=climb.episodes)[0]
-    differences = [
-        arena.returns(changes.applied(climb.running[first : first + together]), stream, count, climb.episodes)
-        - own
-        for first in range(0, len(climb.running), together)
-    ]
-    spent = climb.spent + count * (1 + len(climb.running))
-    more = np.concatenate([np.empty((0, count)), *differences])
-    if not climb.episodes:
-        own_mean, kept = mean_of(own), np.flatnonzero(more.any(axis=1))
-    else:
-        own_mean = (climb.mean * climb.episodes + mean_of(own) * count) / (climb.episodes + count)
-        kept = np.arange(len(more))
-    climb, more = _with_running(climb, kept), more[kept]
-    gains, squares = _merged(climb, more)
+    own, asked = arena.asked(climb.design, paired, count, first=climb.episodes)
+    mean = (
+        (climb.mean * climb.episodes + mean_of(own) * count) / (climb.episodes + count)
+        if climb.episodes
+        else mean_of(own)
+    )
+    in_all = np.concatenate([asked.sum(axis=0)[changes.cells], np.full(len(changes.orders), count)])
+    climb = _affordable(climb, in_all[climb.running], stream, left - count)
+    gains, squares = np.zeros(len(climb.running)), np.zeros(len(climb.running))
+    together = max(1, min(MOST_BYTES // climb.design.tables.size, MOST_EPISODES_AT_ONCE // count))
+    for first in range(0, len(climb.running), together):
+        part = climb.running[first : first + together]
+        rows, episodes = np.nonzero(_tried(changes, part, asked))
+        returns = arena.paired_returns(changes.applied(part), rows, paired, climb.episodes + episodes)
+        ends = np.cumsum(in_all[part])[:-1]
+        for row, differences in enumerate(np.split(returns - own[episodes], ends), first):
+            if differences.any():
+                gains[row] = fsum(differences.tolist()) / count
+                apart = fsum(((differences - gains[row]) ** 2).tolist())
+                squares[row] = apart + (count - len(differences)) * gains[row] ** 2
+    tried = in_all[climb.running]
+    gains, squares = _merged(climb, gains, squares, count)
     return replace(
-        climb, mean=own_mean, gains=gains, squares=squares, episodes=climb.episodes + count, spent=spent
+        climb,
+        mean=mean,
+        gains=gains,
+        squares=squares,
+        tried=climb.tried + tried,
+        episodes=climb.episodes + count,
+        spent=climb.spent + count + int(tried.sum()),
     )
 
 
-def _merged(climb: Climb, more: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return gains and squares after more differences, (n_running, count) (Chan, Golub and LeVeque 1979)."""
-    count, before = more.shape[1], climb.episodes
-    means = row_means(more)
-    squares = row_means((more - means[:, np.newaxis]) ** 2) * count
-    apart = means - climb.gains
-    gains = climb.gains + apart * count / (before + count)
-    return gains, climb.squares + squares + apart**2 * before * count / (before + count)
+def _tried(changes: Changes, which: NDArray[np.int64], asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return in which episodes some changes are to be tried, (n_changes, n_episodes), given the cells asked in each."""
+    tried = np.ones((len(which), len(asked)), np.bool_)
+    of_cells = which < len(changes.cells)
+    tried[of_cells] = asked.T[changes.cells[which[of_cells]]]
+    return tried
+
+
+def _affordable(climb: Climb, costs: NDArray[np.int64], stream: int, left: int) -> Climb:
+    """Return the climb with the most promising changes that so many episodes pay for, given what each costs."""
+    if costs.sum() <= left:
+        return climb
+    promise = _scores(climb) if climb.episodes else uniforms(fold(stream, SOME), climb.running.shape)
+    order = np.argsort(-promise, kind="stable")
+    paid = order[np.cumsum(costs[order]) <= left]
+    return replace(_with_running(climb, np.sort(paid)), whole=False)
+
+
+def _merged(
+    climb: Climb, gains: NDArray[np.float64], squares: NDArray[np.float64], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return gains and squares of a climb and of more episodes together (Chan, Golub and LeVeque 1979)."""
+    before, apart = climb.episodes, gains - climb.gains
+    squares = climb.squares + squares + apart**2 * (before * count / (before + count))
+    return climb.gains + apart * (count / (before + count)), squares
 
 
 def _scores(climb: Climb) -> NDArray[np.float64]:
@@ -191,10 +214,22 @@ def _changed(
 
 def _after_pass(climb: Climb, *, at_optimum: bool) -> Climb:
     """Return the climb at the end of a pass."""
-    nothing = _with_running(climb, np.empty(0, np.int64))
+    nothing = _with_changes(climb, np.empty(0, np.int64))
     return replace(nothing, episodes=0, passes=climb.passes + 1, at_optimum=at_optimum)
+
+
+def _with_changes(climb: Climb, running: NDArray[np.int64]) -> Climb:
+    """Return the climb with changes of which nothing is known yet."""
+    zeros, n = np.zeros(len(running)), np.zeros(len(running), np.int64)
+    return replace(climb, running=running, gains=zeros, squares=zeros, tried=n, whole=True)
 
 
 def _with_running(climb: Climb, kept: NDArray[np.int64]) -> Climb:
     """Return the climb with some of its running changes only, by their indices among these."""
-    return replace(climb, running=climb.running[kept], gains=climb.gains[kept], squares=climb.squares[kept])
+    return replace(
+        climb,
+        running=climb.running[kept],
+        gains=climb.gains[kept],
+        squares=climb.squares[kept],
+        tried=climb.tried[kept],
+    )

@@ -1,6 +1,9 @@
+from functools import partialmethod
+
 import numpy as np
 import pytest
 
+from bbsd.compiler.team import Team
 from bbsd.solver.arena import Arena
 from bbsd.solver.changes import changes_of
 from bbsd.solver.climb import MOST_EPISODES, advance_climb, begin_climb
@@ -76,17 +79,21 @@ def test_improvements_of_different_cells_are_made_together():
     assert climbs[-1].passes <= 3
 
 
-def test_without_noise_the_last_pass_takes_one_round():
-    *_, end = climbed(path(), design(3, 3, 3, 3, 0, 0, 0, 0, 0, 0))
-    assert (end.passes, end.spent) == (1, 50 * 31)
+def test_what_is_never_asked_costs_nothing():
+    # Each episode asks one cell, of which there are three changes, all of them worse.
+    first, *_, end = climbed(path(), design(3, 3, 3, 3, 0, 0, 0, 0, 0, 0))[1:]
+    assert first.spent == 50 + 3 * 50
+    assert set(changes_of(path().space, first.design).cells[first.running]) == {4, 5, 6, 7, 8, 9}
+    # Beyond that, the design runs alone to see whether it asks any other.
+    assert (end.passes, end.spent, end.at_optimum) == (1, first.spent + MOST_EPISODES - 50, True)
 
 
-def test_what_is_never_asked_costs_the_first_round_only():
-    # The only changes that can be in doubt are 3 x 4 of the cells that are asked; the noise is the same for all.
-    first = climbed(path("normal(0, 1)"), NONE, budget=50 * 31)[1]
-    assert (first.spent - 50 * 31) % 50 == 0
-    doubtful = climbed(path("normal(0, paid)"), design(3, 3, 3, 3, 0, 0, 0, 0, 0, 0), budget=50 * 31)[-1]
-    assert set(changes_of(path().space, doubtful.design).cells[doubtful.running]) <= {0, 1, 2, 3}
+def test_a_cell_that_is_seldom_asked_is_found():
+    text = PATH.format(luck="0").replace("integers(0, 3)", "min(floor(uniform(0, 100)), 1)")
+    arena = Arena(problem_of(text, lanes=50), 1)
+    *_, end = climbed(arena, design(0, 3, *[0] * 8), budget=10_000)
+    assert end.at_optimum
+    assert end.design.tables[0].tolist() == [3, 3, 0, 0, 0, 0, 0, 0, 0, 0]
 
 
 def test_noise_that_is_common_does_not_hide_a_gain():
@@ -117,13 +124,14 @@ def test_a_climb_never_spends_more_than_its_budget_and_always_something(budget):
 
 
 def test_spent_is_what_episodes_ran(monkeypatch):
-    ran, returns = [], Arena.returns
+    ran = []
 
-    def counted(self, designs, key, count, first=0):
-        ran.append(len(designs) * count)
-        return returns(self, designs, key, count, first)
+    def count_lanes(team, keys, *others, function):
+        ran.append(len(keys))
+        return function(team, keys, *others)
 
-    monkeypatch.setattr(Arena, "returns", counted)
+    for name in ("episode", "practice"):
+        monkeypatch.setattr(Team, name, partialmethod(count_lanes, function=getattr(Team, name)))
     *_, end = climbed(path("normal(0, paid)"), NONE, budget=8_000)
     assert sum(ran) == end.spent
 
