@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -43,7 +43,9 @@ from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
 from bbsd.runs.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
 from bbsd.runs.identity import Identity, identity
+from bbsd.runs.interim import best_so_far
 from bbsd.runs.lock import only_writer
+from bbsd.runs.pace import budget_of
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
 from bbsd.runs.searching import ANSWER
@@ -52,6 +54,7 @@ from bbsd.solver.budget import automatic_budget
 from bbsd.solver.judgement import RANDOM_EPISODES, Judgement, judge
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
+from bbsd.stopping import stop_request_of_context
 from bbsd.text import Source
 
 if TYPE_CHECKING:
@@ -78,12 +81,31 @@ class NothingToDesign(UsageError):
     advice = "to have parts of it designed, leave them out: the rules of a behavior, or the structure"
 
 
+class NoBudget(UsageError):
+    """A budget was given to a method that has none."""
+
+    advice = "name another method, such as --set design.method=auto"
+
+
 class Interrupted(KeyboardInterrupt):
     """A design was stopped; its state is in `folder`, from which `design(..., resume=True)` continues."""
 
     def __init__(self, folder: Path) -> None:
         super().__init__(str(folder))
         self.folder = folder
+        self.best: BestSoFar | None = None
+        """The best design so far, None where there is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class BestSoFar:
+    """The best design of a search that was stopped, by a short race."""
+
+    architecture: Path
+    """The file of the designed spec."""
+    mean: float
+    episodes: int
+    """Its mean return in the race, and the episodes of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -325,6 +347,8 @@ def design(
     progress: Callable[[AnyProgress], None] | None = None,
     overdue: Callable[[Interrupted], object] | None = None,
     ready: Processes | None = None,
+    more: int | None = None,
+    within: float | None = None,
 ) -> Designed:
     """Fill the holes of a spec, and write the design and its metrics into a folder.
 
@@ -346,10 +370,15 @@ def design(
             effect after the episodes that are running. `overdue` may end the process, since all written files are
             complete.
         ready: Worker processes that were started before; by default as many are started as are needed.
+        more: Episodes of a further budget for each run that `resume` continues; the same sequence of budgets gives
+            the same bytes.
+        within: Seconds of each run, instead of a budget in episodes; the result cannot be reproduced.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         NothingToDesign: the spec has no holes.
+        NoBudget: `more` or `within` for the paper's loop.
+        FolderInUse: another process writes in the folder.
         FolderError: the folder cannot be written, or not be resumed.
         WorkerLost: a process that did a run was killed.
         Interrupted: the design was interrupted; `resume` continues it.
@@ -357,14 +386,18 @@ def design(
     started = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = _problem_with_holes(loaded, lanes, jobs)
+    settings = settings_of(loaded.meaning)
+    if settings.method == "paper" and (more is not None or within is not None):
+        raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
     run_identity = identity(loaded, seed, runs)
     folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
-    settings = settings_of(loaded.meaning)
     with only_writer(folder):
-        budgets = _budgets(settings, problem, folder)
+        if within is not None and not folder.budgets():
+            settings = replace(settings, budget=budget_of(within, problem, settings))
+        budgets = _budgets(settings, problem, folder) + (() if more is None else (more,))
         if not resume or budgets != folder.budgets():
             folder.write_run_file(run_identity, overrides, budgets, folder.result() or None)
-        command = Command(problem, settings, seed, runs, folder, run_identity, budgets)
+        command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
         judged = _judged(command, jobs, progress, overdue, ready, loaded)
         folder.gather(runs)
         text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
@@ -410,7 +443,18 @@ def _judged(
             answers = complete_runs(command, jobs, progress and _metrics_listener(command, progress), ready)
             return judge(answers, command.problem, command.settings, command.seed)
         except KeyboardInterrupt:
+            with stop_request_of_context():
+                interrupted.best = _keep_best(command, loaded)
             raise interrupted from None
+
+
+def _keep_best(command: Command, loaded: Loaded) -> BestSoFar | None:
+    """Write the best design so far of a search that was stopped."""
+    best = best_so_far(command)
+    if best is None:
+        return None
+    text = designed_text(loaded, tidy_tables(command.problem.meaning, best.architecture))
+    return BestSoFar(command.folder.write_best(text), best.mean, best.episodes)
 
 
 def price(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bbsd.cli.budget import read_budget
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.report.figures import draw_curves, require_figure
@@ -17,10 +18,13 @@ from bbsd.report.plain import design_plain, json_text
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
-    from bbsd.api import Designed
+    from bbsd.api import Designed, Interrupted
+    from bbsd.language.loading import Loaded
     from bbsd.runs.price import Price
     from bbsd.runs.processes import Processes
 
+LEAST_BUDGET = 5_000
+"""As in `bbsd.language.design`, which takes long to import."""
 INTERRUPTED = 130
 CURVES = "curves.png"
 DRAWING = 0.5
@@ -41,6 +45,24 @@ def design(
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a design that was stopped.")] = False,
     lanes: Lanes = 40,
+    budget: Annotated[
+        str | None,
+        typer.Option(
+            metavar="N",
+            help="Episodes of each run in all, such as 300_000; or seconds, such as 20s, "
+            "which cannot be reproduced.",
+            show_default="from the spec",
+        ),
+    ] = None,
+    more: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=LEAST_BUDGET,
+            help="Go on after the end with so many more episodes; SPEC may be the folder of a design.",
+            show_default=False,
+        ),
+    ] = None,
     jobs: Annotated[
         int,
         typer.Option(
@@ -69,8 +91,19 @@ def design(
 
     if plot:
         require_figure(Path(CURVES))
+    set_by_budget, within = read_budget(budget)
+    overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
+    if spec.is_dir():
+        from bbsd.runs.folder import Folder
+
+        # The folder of a design names its spec, its seed and its settings.
+        former = Folder(spec).design()
+        spec, out, resume = former.spec, spec, True
+        seed, runs, overrides = former.seed, former.runs, [*former.overrides, *set_by_budget]
     # Mistakes are shown before anything heavy is imported, and workers import it at the same time as this process.
-    loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides or ())
+    loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides)
+    if not quiet:
+        _say_which_method(loaded)
     with _workers(0 if dry_run or resume else min(runs, jobs) - 1) as ready:
         from bbsd import api
         from bbsd.report.progress import generation_listener
@@ -85,7 +118,7 @@ def design(
         def leave(stopped: api.Interrupted) -> None:
             """End the process at once: what was written is complete."""
             console.show_cursor()
-            _say_how_to_continue(stopped.folder, begin="\n" if console.is_terminal and not quiet else "")
+            _say_how_to_continue(stopped, begin="\n" if console.is_terminal and not quiet else "")
             leave_now(INTERRUPTED)
 
         try:
@@ -98,14 +131,18 @@ def design(
                     resume=resume,
                     lanes=lanes,
                     jobs=jobs,
-                    overrides=overrides or (),
+                    overrides=overrides,
+                    more=more,
+                    within=within,
                     progress=listener,
                     overdue=leave,
                     ready=ready,
                 )
         except api.Interrupted as stopped:
-            _say_how_to_continue(stopped.folder)
+            _say_how_to_continue(stopped)
             raise typer.Exit(INTERRUPTED) from None
+    if within is not None:
+        say("a budget by time cannot be reproduced: the same command may give another design")
     _show(designed, seed, runs, as_json=as_json)
     if plot:
         _draw_curves(designed)
@@ -125,14 +162,37 @@ def _show_price(price: "Price", *, as_json: bool) -> None:
     show(json_text(price_plain(price)) if as_json else price_text(price))
 
 
-def _say_how_to_continue(folder: Path, begin: str = "") -> None:
-    say(f"{begin}stopped; what was done is kept in {folder}. To continue: {_resume_command(folder)}")
+def _say_which_method(loaded: "Loaded") -> None:
+    """Say that the paper's loop is meant where it is not named, and what the default would be."""
+    design = loaded.spec.design
+    if design.chosen_method == "paper" and "method" not in design.model_fields_set:
+        keys = " and ".join(f"design.{key}" for key in design.loop_keys)
+        say(
+            f"the spec has {keys} and names no method, so it is designed by the paper's loop (method: paper); "
+            "method: auto would search with several methods on one budget (--set design.method=auto)"
+        )
+
+
+def _say_how_to_continue(stopped: "Interrupted", begin: str = "") -> None:
+    best = stopped.best
+    kept = f"stopped; what was done is kept in {stopped.folder}."
+    if best is not None:
+        kept += (
+            f" The best so far, {best.architecture}, earned {best.mean:.6g} in {best.episodes:,} episodes."
+        )
+    say(f"{begin}{kept} To continue: {_resume_command(stopped.folder)}")
 
 
 def _resume_command(folder: Path) -> str:
-    """Return the command that continues in a folder: the one given, with --resume."""
-    given = [word for word in sys.argv[1:] if word != "--resume"]
-    named = any(word.partition("=")[0] == "--out" for word in given)
+    """Return the command that continues in a folder: the one given, with --resume and without a further budget."""
+    words = sys.argv[1:]
+    value_of_more = {index + 1 for index, word in enumerate(words) if word == "--more"}
+    given = [
+        word
+        for index, word in enumerate(words)
+        if index not in value_of_more and word.partition("=")[0] not in ("--more", "--resume")
+    ]
+    named = any(word.partition("=")[0] == "--out" for word in given) or str(folder) in given
     return shlex.join(["bbsd", *given, *([] if named else ["--out", str(folder)]), "--resume"])
 
 

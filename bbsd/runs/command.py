@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ from bbsd.runs.records import Journal
 from bbsd.runs.run import generations, run_key, start
 from bbsd.runs.searching import Course
 from bbsd.runs.state import RunState, Searching, restored_run, run_arrays
+from bbsd.solver.search import RACE_SHARE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -37,8 +39,8 @@ class Command:
     who: Identity
     budgets: tuple[int, ...] = ()
     """The budgets of each run, one after another; none for the paper's loop, which has generations."""
-    deadline: float | None = None
-    """When rounds end by the monotonic clock."""
+    seconds: float | None = None
+    """The time of each run, at the end of the search's part of which its rounds end."""
 
     def with_threads(self, jobs: int) -> Command:
         """Return the same command with this number of threads in each run."""
@@ -82,7 +84,8 @@ class Command:
     def _steps(self, reached: RunState) -> Iterator[tuple[RunState, dict[str, Any] | None]]:
         if self.settings.method == "paper":
             return generations(reached, self.problem, self.settings, self.seed)
-        return self._course(reached.run).steps(reached, self.budgets, self.deadline)
+        deadline = None if self.seconds is None else time.monotonic() + self.seconds * (1 - RACE_SHARE)
+        return self._course(reached.run).steps(reached, self.budgets, deadline)
 
     def _is_complete(self, reached: RunState) -> bool:
         if isinstance(reached.state, Searching):

@@ -37,6 +37,11 @@ class Folder:
         return self.path / "architecture.yaml"
 
     @property
+    def best(self) -> Path:
+        """The file of the best design so far, while there is no answer."""
+        return self.path / "best.yaml"
+
+    @property
     def metrics(self) -> Path:
         """The file with one line for each generation."""
         return self.path / "metrics.jsonl"
@@ -73,6 +78,25 @@ class Folder:
             move(self.architecture, self.path / "architecture.edited.yaml")
         if there != text.encode():
             write_text_whole(self.architecture, text)
+        self.best.unlink(missing_ok=True)
+
+    def write_best(self, text: str) -> Path:
+        """Write the best design so far of runs that were stopped, and return its file."""
+        write_text_whole(self.best, text)
+        return self.best
+
+    def design(self) -> Design:
+        """Return what this is the design of. Raises FolderError where it is none."""
+        content, spec = self.read_run_file(), self.path / "spec.yaml"
+        seed, runs, overrides = content.get("seed"), content.get("runs"), content.get("set")
+        if (
+            not isinstance(seed, int)
+            or not isinstance(runs, int)
+            or not isinstance(overrides, list)
+            or not spec.exists()
+        ):
+            raise FolderError(f"{self.path} is not the folder of a design")
+        return Design(spec, seed, runs, tuple(map(str, overrides)))
 
     def result(self) -> dict[str, Any]:
         """Return the result that `run.json` holds, empty where there is none."""
@@ -130,6 +154,16 @@ class Folder:
         if "spec" not in content and "spec_sha256" in content:  # format 2 had a digest of the text
             del chosen["spec"]
         return _agrees(content, chosen) and not self.holds(who)
+
+
+@dataclass(frozen=True, slots=True)
+class Design:
+    """What a folder is the design of."""
+
+    spec: Path
+    seed: int
+    runs: int
+    overrides: tuple[str, ...]
 
 
 def digest_of(text: str) -> str:

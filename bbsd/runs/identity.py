@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
     from bbsd.text import Data
 
-WITHOUT_MEANING = ("bbsd", "name", "description", "view", "extends")
+WITHOUT_MEANING = ("bbsd", "name", "summary", "view", "extends")
 """Blocks that change no episode."""
 FREE = "x-"
 

@@ -80,7 +80,7 @@ def test_a_further_budget_goes_on_from_the_end_of_the_former(tmp_path):
 def test_a_deadline_ends_the_rounds_and_the_race_follows(tmp_path):
     command = search_of(tmp_path, 1_000_000)
     early = Command(
-        command.problem, command.settings, 11, 2, command.folder, command.who, command.budgets, deadline=0.0
+        command.problem, command.settings, 11, 2, command.folder, command.who, command.budgets, seconds=0.0
     )
     early.complete(0)
     lines = early.records(0).lines()
