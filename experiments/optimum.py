@@ -1,23 +1,26 @@
 """The best return that a task allows, by dynamic programming: `make optimum`.
 
-The task is read as a Markov decision process for somebody who knows the whole state and the steps that are left. No
-design can earn more; where the behaviors' cells tell the state, a design may earn as much. It needs one robot, finitely
-many states, and draws of finitely many values. What is drawn anew in every step, and sensed by no behavior, is not
-known before it takes effect.
+The task is read as a Markov decision process of whoever knows the whole state and the steps that are left: no design
+can earn more. A design always does the same in a state, so the best policy of that kind among those that are greedy for
+some number of steps is given too; where the behaviors' cells tell the state, a design can earn as much. A task must
+have one robot, finitely many states, and draws of finitely many values. What is drawn anew in every step, and sensed by
+no behavior, is not known before it takes effect.
 """
 
 from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 import bbsd
 from bbsd.expression.graph import evaluate, needed
-from experiments.designs import spec_path
+from experiments.designs import Floats, spec_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -30,8 +33,24 @@ TASKS = ("lake", "lake_8x8", "cliff_walking", "taxi", "four_rooms")
 MAX_STATES = 20_000
 """About a minute: a state takes some milliseconds."""
 
+Integers = npt.NDArray[np.int64]
 State = tuple[Any, ...]
 """A value for each slot that the future depends on."""
+
+
+TIE = 1e-12
+"""Options whose gains differ by less are equally good."""
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """What can be earned in a task."""
+
+    best: float
+    """By whoever knows the steps that are left: no design earns more."""
+    fixed: float
+    """By the best policy found that always does the same in a state, as a design does."""
+    n_states: int
 
 
 class NoFiniteProcess(Exception):
@@ -202,14 +221,42 @@ class Process:
         """The number of states."""
         return len(self.options)
 
-    def best_return(self, steps: int) -> float:
-        """Return the expected return of the best policy in so many steps."""
-        option, next_state, probability, reward = np.array(self.outcomes).T
-        options, next_states = option.astype(np.int64), next_state.astype(np.int64)
+    def optimum(self, steps: int) -> Optimum:
+        """Return what can be earned in so many steps."""
+        values = np.zeros(self.n_states + 1)
+        policies: dict[bytes, Integers] = {}
+        for _ in range(steps):
+            gains = self._gains(values)
+            policy = self._best_options(gains)
+            policies[policy.tobytes()] = policy
+            values[:-1] = gains[policy]
+        fixed = max(self._return(policy, steps) for policy in policies.values())
+        return Optimum(self._at_start(values), fixed, self.n_states)
+
+    def _gains(self, values: Floats) -> Floats:
+        """Return what each option earns, now and later, given what the states are worth."""
+        options, next_states, probabilities, rewards = self._columns
+        return np.bincount(options, probabilities * (rewards + values[next_states])).astype(np.float64)
+
+    @cached_property
+    def _columns(self) -> tuple[Integers, Integers, Floats, Floats]:
+        options, next_states, probabilities, rewards = np.array(self.outcomes).T
+        return options.astype(np.int64), next_states.astype(np.int64), probabilities, rewards
+
+    def _best_options(self, gains: Floats) -> Integers:
+        """Return the first of the best options of each state."""
+        n_options = np.diff([*self.options, len(gains)])
+        is_best = gains >= np.repeat(np.maximum.reduceat(gains, self.options), n_options) - TIE
+        first: Integers = np.maximum.reduceat(is_best * np.arange(len(gains), 0, -1), self.options)
+        return len(gains) - first
+
+    def _return(self, policy: Integers, steps: int) -> float:
         values = np.zeros(self.n_states + 1)
         for _ in range(steps):
-            gains = np.bincount(options, probability * (reward + values[next_states]))
-            values[:-1] = np.maximum.reduceat(gains, self.options)
+            values[:-1] = self._gains(values)[policy]
+        return self._at_start(values)
+
+    def _at_start(self, values: Floats) -> float:
         return float(sum(probability * values[state] for probability, state in self.starts))
 
 
@@ -240,26 +287,31 @@ def process_of(step: Step) -> Process:
     return Process(starts, options, outcomes)
 
 
-def optimum(path: Path) -> tuple[float, int]:
-    """Return the best return that a task allows, and the number of its states."""
+def optimum(path: Path) -> Optimum:
+    """Return what can be earned in a task. Raises NoFiniteProcess."""
     meaning = bbsd.load(path).meaning
-    process = process_of(step_of(meaning))
-    return process.best_return(meaning.spec.environment.steps), process.n_states
+    return process_of(step_of(meaning)).optimum(meaning.spec.environment.steps)
+
+
+def line(path: Path) -> tuple[str, bool]:
+    """Return what can be earned in a task as text, and whether that is known."""
+    try:
+        known = optimum(path)
+    except NoFiniteProcess as reason:
+        return f"{path.stem:<14} no optimum by dynamic programming: {reason}", False
+    return f"{path.stem:<14} {known.best:10.4f} {known.fixed:10.4f} {known.n_states:8}", True
 
 
 def main() -> int:
-    """Print the optimum of the specs named as arguments, or of the tasks that have one; return 1 if one has none."""
+    """Print the optima of the specs named as arguments, or of the tasks that have one; return 1 if one has none."""
     paths = [Path(name) for name in sys.argv[1:]] or [spec_path(f"tasks/{name}") for name in TASKS]
-    failed = False
+    print(f"{'':<14} {'at most':>10} {'fixed':>10} {'states':>8}", flush=True)
+    found = True
     for path in paths:
-        try:
-            value, n_states = optimum(path)
-        except NoFiniteProcess as reason:
-            print(f"{path.stem:<16} no optimum by dynamic programming: {reason}", flush=True)
-            failed = True
-        else:
-            print(f"{path.stem:<16} {value:10.4f}  {n_states:6} states", flush=True)
-    return int(failed)
+        text, known = line(path)
+        print(text, flush=True)
+        found = found and known
+    return 0 if found else 1
 
 
 if __name__ == "__main__":
