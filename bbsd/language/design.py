@@ -14,6 +14,7 @@ from bbsd.language.field_types import (
     expression,
     grouped,
     shape,
+    word_list_or_number,
     word_or_number,
 )
 
@@ -168,6 +169,16 @@ class Design(Part):
         Discriminator(shape),
     ] = Field(CultureSettings(), description="The culture of memes, or none.")
     answer: Answer = Field(Answer(), description="The choice of the final answer.")
+    record: Annotated[
+        Annotated[Whole, Field(ge=1), Tag("<number>")]
+        | Annotated[list[Annotated[Whole, Field(ge=1)]], Tag("<list>")]
+        | Annotated[Literal["none"], Tag("<word>")],
+        Discriminator(word_list_or_number),
+    ] = Field(
+        "none",
+        description="Generations whose agents are written down, every so many or a list of them, beside the culture of "
+        "all; with methods other than `paper`, records of `metrics.jsonl` at which the champions are.",
+    )
 
     @property
     def loop_keys(self) -> tuple[str, ...]:
@@ -180,6 +191,12 @@ class Design(Part):
         if "method" in self.model_fields_set:
             return self.method
         return "paper" if self.loop_keys else "auto"
+
+    def records(self, number: int) -> bool:
+        """Return whether agents of a generation, or champions at a record, are written down; numbers count from 1."""
+        if self.record == "none":
+            return False
+        return number in self.record if isinstance(self.record, list) else number % self.record == 0
 
     @property
     def episodes(self) -> int | None:

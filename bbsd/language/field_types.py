@@ -139,6 +139,11 @@ def word_or_number(value: object) -> str:
     return "<word>" if isinstance(value, str) else "<number>"
 
 
+def word_list_or_number(value: object) -> str:
+    """Return a tag for a value as a word, as a list or as a number."""
+    return "<list>" if isinstance(value, list) else word_or_number(value)
+
+
 def name(value: str) -> str:
     """Return a name of the spec's own; raise PydanticCustomError for a text that cannot be one."""
     return _checked_name(value, is_name)

@@ -172,7 +172,9 @@ NEEDED_BY_KEY = {
     "structure": "a list of behaviors",
     "culture": "a mapping or none",
     "budget": "a whole number of episodes from 5 000 on, or auto",
+    "record": "a whole number from 1 on, a list of them, or none",
 }
+NEEDED_BY_ITEM = {"record": "a whole number from 1 on"}
 NEEDED_BY_ERROR = {
     "not_an_expression": "an expression",
     "not_a_decision": "an action, no action or open",
@@ -191,6 +193,8 @@ def _needed(path: Path, error: ErrorDetails) -> str:
         return " or ".join(map(str, get_args(field.annotation)))
     if path[:1] == ("view",) and error["type"] == "not_an_expression":
         return "an expression or a list of them"
+    if len(path) > 1 and path[-2] in NEEDED_BY_ITEM:
+        return NEEDED_BY_ITEM[str(path[-2])]
     if path and path[-1] in NEEDED_BY_KEY and error["type"] != "string_type":
         return NEEDED_BY_KEY[str(path[-1])]
     return NEEDED_BY_ERROR.get(error["type"]) or _number_needed(field)

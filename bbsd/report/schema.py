@@ -216,12 +216,20 @@ BUDGET_SCHEMA: Schema = {
         {"type": "string", "anyOf": [{"enum": ["auto"]}, {"pattern": f"^{field_types.GROUPED.pattern}$"}]},
     ]
 }
+RECORD_SCHEMA: Schema = {
+    "anyOf": [
+        {"type": "integer", "minimum": 1},
+        {"type": "array", "items": {"type": "integer", "minimum": 1}},
+        {"enum": ["none"]},
+    ]
+}
 KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
     (models.When, "when"): {**_mapping(str, str), "additionalProperties": CELLS_SCHEMA},
     (models.When, "do"): DECISION_SCHEMA,
     (models.Otherwise, "otherwise"): DECISION_SCHEMA,
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
     (design.Design, "budget"): BUDGET_SCHEMA,
+    (design.Design, "record"): RECORD_SCHEMA,
     (view.View, "at"): PLACE_SCHEMA,
     (view.View, "area"): CORNERS_SCHEMA,
     (view.View, "marks"): {**_mapping(field_types.NameText, str), "additionalProperties": PLACE_SCHEMA},

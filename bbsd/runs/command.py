@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from bbsd.runs.census import tables
 from bbsd.runs.records import Journal
 from bbsd.runs.run import generations, run_key, start
 from bbsd.runs.searching import Course
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
+    from bbsd.runs.census import Table
     from bbsd.runs.folder import Folder
     from bbsd.runs.identity import Identity
     from bbsd.runs.records import Records
@@ -65,12 +67,18 @@ class Command:
         reached = self.reached(run) or self._fresh(run)
         with Journal(self.records(run), self.who) as journal:
             for reached, line in self._steps(reached):  # noqa: B020
-                journal.add(partial(run_arrays, reached), line)
+                journal.add(
+                    partial(run_arrays, reached), line, self._tables(reached, line, journal.lines + 1)
+                )
                 if listener is not None and line is not None:
                     listener(line)
         if reached.answer is None:
             raise RuntimeError("a run ended without an answer")
         return reached.answer
+
+    def _tables(self, reached: RunState, line: dict[str, Any] | None, number: int) -> Iterator[Table]:
+        """Return what a step adds to the run's tables, given the number of its line of metrics."""
+        return iter(()) if line is None else tables(reached, line.get("episodes", 0), self.problem, number)
 
     def _course(self, run: int) -> Course:
         return Course(self.problem, self.settings, run_key(self.seed, run), run)

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bbsd.files import move, write_text_whole, write_whole
-from bbsd.runs.records import FolderError, Records
+from bbsd.runs.census import TABLES
+from bbsd.runs.records import METRICS, FolderError, Records
 from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:
@@ -56,10 +57,16 @@ class Folder:
         return Records(self.path if n_runs == 1 else self.path / f"run-{run + 1}")
 
     def gather(self, n_runs: int) -> None:
-        """Write the metrics of all runs, in their order, into one file."""
-        if n_runs > 1:
-            metrics = (self.records(run, n_runs).metrics.read_bytes() for run in range(n_runs))
-            write_whole(self.metrics, b"".join(metrics))
+        """Write the metrics and the tables of all runs, in their order, into one file each."""
+        if n_runs == 1:
+            return
+        folders = [self.records(run, n_runs).path for run in range(n_runs)]
+        write_whole(self.metrics, b"".join((folder / METRICS).read_bytes() for folder in folders))
+        for name in TABLES:
+            tables = [(folder / name).read_bytes() for folder in folders if (folder / name).exists()]
+            if tables:  # the names of the columns stand in the first line of each
+                rest = (table.partition(b"\n")[2] for table in tables[1:])
+                write_whole(self.path / name, b"".join([tables[0], *rest]))
 
     def copy_spec(self, text: str) -> None:
         """Keep the spec as it is when the design begins."""

@@ -43,6 +43,6 @@ def generations(
         raise TypeError("this state is of another method")
     while state.generation < settings.coevolution.generations:
         state, census = next_generation(state, problem, settings, key)
-        yield RunState(run, state), metrics.line(run, state, census, problem)
+        yield RunState(run, state, census=census), metrics.line(run, state, census, problem)
     if reached.answer is None:
         yield RunState(run, state, answer(state, problem, settings, key)), None

@@ -11,7 +11,7 @@ from bbsd.architecture import Architecture
 from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.runs.checkpoint import CheckpointError
 from bbsd.solver.champions import Champions
-from bbsd.solver.generation import State
+from bbsd.solver.generation import Census, State
 from bbsd.solver.methods.method import arrays_of, restored
 from bbsd.solver.space import Designs
 from bbsd.solver.structures import OPEN
@@ -60,6 +60,8 @@ class RunState:
     run: int
     state: State | Searching
     answer: Architecture | None = None
+    census: Census | None = None
+    """The agents of the generation that ended just now; it is not kept with the state."""
 
 
 def run_arrays(reached: RunState) -> Arrays:

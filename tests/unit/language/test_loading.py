@@ -128,6 +128,8 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
             'sharing must be uniform or value or difference, not text "valu"; did you mean "value"?',
         ),
         ("design: {culture: 3}", "culture must be a mapping or none, not 3"),
+        ("design: {record: 0}", "record must be a whole number from 1 on, a list of them, or none, not 0"),
+        ("design: {record: [9, x]}", 'item 2 of record must be a whole number from 1 on, not text "x"'),
         ("structure: stop", 'structure must be a list of behaviors, not text "stop"'),
         ("structure: [stop, [stop]]", "item 2 of structure must be text, not a list"),
         ("behaviors: {stop: {rules: {do: halt}}}", "rules must be a list of rules, not a mapping"),
