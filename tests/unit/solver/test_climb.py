@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from bbsd.compiler.team import Team
+from bbsd.kernel.streams import fold, word_of
 from bbsd.solver.arena import Arena
 from bbsd.solver.changes import changes_of
-from bbsd.solver.climb import MOST_EPISODES, advance_climb, begin_climb
+from bbsd.solver.climb import MOST_EPISODES, PAIRED, advance_climb, begin_climb
 from bbsd.solver.methods.method import arrays_of, restored
 from bbsd.solver.space import Designs
 from tests.unit.problems import problem_of
@@ -107,6 +108,20 @@ def test_a_small_gain_within_noise_of_its_own_is_found_in_longer_rounds():
     climbs = climbed(path("normal(0, 6 * paid)"), start, budget=20_000)
     assert climbs[-1].design.tables[0, :4].tolist() == [3, 3, 3, 3]
     assert max(climb.episodes for climb in climbs if not climb.passes) >= 200
+
+
+def test_what_is_known_of_changes_is_that_of_all_their_episodes():
+    arena, start = path("normal(0, 30 * paid)"), design(3, 3, 2, 2, 0, 0, 0, 0, 0, 0)
+    climb = climbed(arena, start, budget=2000)[3]
+    assert (climb.passes, climb.episodes) == (0, 200)
+    changed = changes_of(arena.space, start).applied(climb.running)
+    *returns, own = arena.returns(changed.joined(start), fold(fold(1, word_of(0)), PAIRED), 200)
+    differences = np.array(returns) - own
+    assert len(differences) > 3
+    assert climb.mean == pytest.approx(own.mean())
+    assert climb.gains == pytest.approx(differences.mean(axis=1))
+    assert climb.squares == pytest.approx(differences.var(axis=1) * 200)
+    assert (climb.tried >= (differences != 0).sum(axis=1)).all()
 
 
 def test_choices_that_are_worth_the_same_are_given_up_at_last():

@@ -61,6 +61,14 @@ def test_what_cannot_be_told_apart_is_decided_by_weight():
     assert project(values, FIRST_ABOVE, (5, 1, 1, 1)).loss == pytest.approx(2 / 8)
 
 
+def test_behaviors_are_fitted_to_what_others_really_do():
+    # At 00 the second would be best, but it cannot: at 10 it sees the same, and nobody must act. So the first acts.
+    values = [[0, 3, 4], [0, 0, 0], [0, -100, -100], [0, -100, 0]]
+    table, loss = project(values, FIRST_ABOVE)
+    assert table[:3].tolist() == [1, 0, 0]
+    assert loss == pytest.approx(1 / 4)
+
+
 def test_given_cells_stay_and_cost_what_they_cost():
     values = [[1, 0, 0], [1, 0, 0], [1, 0, 0], [1, 0, 0]]
     table, loss = project(values, FIRST_ABOVE, given=(OPEN_CELL, 1, OPEN_CELL, OPEN_CELL))
