@@ -10,6 +10,7 @@ import bbsd
 from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, has_blocks, require_writable_file, say, show, show_table
 from bbsd.errors import UsageError
+from bbsd.files import write_text_whole
 from bbsd.report.csv_text import csv_text
 from bbsd.report.figures import draw_episode, require_figure
 from bbsd.report.numbers import column
@@ -144,7 +145,7 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
 def _write_episode(loaded: "Loaded", seed: int, trace: Path | None, plot: Path | None) -> None:
     first_episode = bbsd.trace(loaded, seed=seed)
     if trace:
-        trace.write_text(csv_text(first_episode), encoding="utf-8")
+        write_text_whole(trace, csv_text(first_episode), through_links=True)
     if plot:
         draw_episode(first_episode, loaded.spec, plot)
 

@@ -10,6 +10,7 @@ from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.options import spec_files
 from bbsd.cli.output import say, show
 from bbsd.errors import SpecError, escape
+from bbsd.files import write_text_whole
 
 if TYPE_CHECKING:
     from bbsd.text import Source
@@ -55,7 +56,7 @@ def _format(spec: Path, *, check: bool, diff: bool) -> int:
     if check:
         say(f"{escape(str(spec))} is not formatted")
     elif not diff:
-        spec.write_text(formatted, encoding="utf-8", newline="")
+        write_text_whole(spec, formatted, through_links=True)
         say(f"formatted {escape(str(spec))}")
     return WOULD_CHANGE if check else 0
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 FORMAT = 3
 """The format of `run.json`."""
+SPEC, LOCK = "spec.yaml", "lock"
+"""Files that are made before `run.json`."""
 DIGEST = "architecture_sha256"
 """The key of a result under which the digest of the designed spec stands."""
 
@@ -70,7 +72,7 @@ class Folder:
 
     def copy_spec(self, text: str) -> None:
         """Keep the spec as it is when the design begins."""
-        write_text_whole(self.path / "spec.yaml", text)
+        write_text_whole(self.path / SPEC, text)
 
     def write_architecture(self, text: str) -> None:
         """Write the designed spec; one that was edited since is kept, beside a new one where there is one.
@@ -94,7 +96,7 @@ class Folder:
 
     def design(self) -> Design:
         """Return what this is the design of. Raises FolderError where it is none."""
-        content, spec = self.read_run_file(), self.path / "spec.yaml"
+        content, spec = self.read_run_file(), self.path / SPEC
         seed, runs, overrides = content.get("seed"), content.get("runs"), content.get("set")
         if (
             not isinstance(seed, int)
@@ -187,7 +189,7 @@ def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
     try:
         if wanted is None:
             return Folder(next(path for path in _defaults(name, seed) if _make(path)))
-        if not _make(wanted) and (not wanted.is_dir() or any(wanted.iterdir())):
+        if not _make(wanted) and not _is_unused(wanted):
             raise FolderError(
                 f"{wanted} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
             )
@@ -203,6 +205,13 @@ def _make(path: Path) -> bool:
     except FileExistsError:
         return False
     return True
+
+
+def _is_unused(path: Path) -> bool:
+    """Return whether nothing is in a folder, or only what a design leaves that was killed before it began."""
+    return path.is_dir() and all(
+        file.name in (LOCK, SPEC) or file.name.endswith(".part") for file in path.iterdir()
+    )
 
 
 def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
@@ -226,6 +235,8 @@ def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
 
 def _other_run(folder: Folder, who: Identity) -> str:
     content = folder.read_run_file()
+    if not folder.run_file.exists() and _is_unused(folder.path):
+        return f"{folder.path} holds no run of this spec: nothing was begun there; start it without --resume"
     different = f": different are {' and '.join(who.differences(content))}" if "spec" in content else ""
     return f"{folder.path} holds no run of this spec with this seed, these runs and these settings{different}"
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import UsageError
+from bbsd.runs.folder import LOCK
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
     from bbsd.runs.folder import Folder
 
-NAME = "lock"
 MOST_BYTES = 1000
 """Bytes of the file that are read: it names one process."""
 
@@ -35,7 +35,7 @@ def only_writer(folder: Folder) -> Iterator[None]:
     Raises:
         FolderInUse: another process holds it; the message names the process.
     """
-    path = folder.path / NAME
+    path = folder.path / LOCK
     descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o666)
     try:
         if not _locked(descriptor):

@@ -25,12 +25,36 @@ FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
 def draw_curves(metrics: Sequence[Line], path: Path) -> None:
     """Draw the lines of `metrics.jsonl`: fitness above, and the diversity of each behavior's pool below.
 
-    With several runs, a curve is their mean, and the mean fitness of each run is drawn faintly. Raises FigureError
+    Of a search that has no generations the best so far is drawn, over the episodes. With several runs, a curve is their mean, and the mean fitness of each run is drawn faintly. Raises FigureError
     for an unknown kind of file, and OSError if the file cannot be written.
     """
+    if any("generation" not in line for line in metrics):
+        with panels_in_file(path, 7.5, [3.4]) as (panel,):
+            _draw_best_so_far(panel, metrics)
+        return
     with panels_in_file(path, 7.5, [3.4, 1.8]) as (fitness, diversity):
         _draw_fitness(fitness, metrics)
         _draw_diversity(diversity, metrics)
+
+
+def _draw_best_so_far(panel: Axes, metrics: Sequence[Line]) -> None:
+    runs = sorted({line["run"] for line in metrics})
+    for index, run in enumerate(runs):
+        lines = [line for line in metrics if line["run"] == run]
+        label = "best so far" if len(runs) < 2 else f"best so far, run {run}"
+        episodes, means = [line["episodes"] for line in lines], [line["mean"] for line in lines]
+        panel.plot(episodes, means, label=label, color=color(index), linewidth=1.4, marker=marker(len(lines)))
+        answers = [line for line in lines if line["stage"] == "answer"]
+        panel.plot(
+            [line["episodes"] for line in answers],
+            [line["mean"] for line in answers],
+            label="" if index else "answer",
+            color=color(index),
+            linestyle="",
+            marker="o",
+        )
+    panel.set(xlabel="episodes", ylabel="mean return in new episodes")
+    legend(panel)
 
 
 def _draw_fitness(panel: Axes, metrics: Sequence[Line]) -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from importlib.util import find_spec
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import UsageError
+from bbsd.files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -91,7 +93,9 @@ def stack_panels(figure: FigureBase, heights: list[float]) -> list[Axes]:
 
 def _save(figure: Figure, path: Path) -> None:
     suffix = path.suffix.lower()
-    figure.savefig(path, format=suffix[1:], dpi=150, metadata=METADATA[suffix])
+    drawn = BytesIO()
+    figure.savefig(drawn, format=suffix[1:], dpi=150, metadata=METADATA[suffix])
+    write_whole(path, drawn.getvalue(), through_links=True)
 
 
 def legend(panel: Axes) -> None:

@@ -47,6 +47,30 @@ def test_runs_that_have_hardly_begun_can_be_drawn(tmp_path, lines):
     assert (tmp_path / "curves.png").stat().st_size > 1000
 
 
+def search_records(runs):
+    return [
+        {
+            "run": run,
+            "method": "random",
+            "stage": stage,
+            "episodes": episodes,
+            "mean": episodes / 1e3,
+            "measured": 9,
+        }
+        for run in range(1, runs + 1)
+        for stage, episodes in (("search", 1000), ("search", 2000), ("answer", 3000))
+    ]
+
+
+@pytest.mark.parametrize("runs", [1, 2])
+def test_a_search_is_drawn_as_its_best_so_far_over_episodes(tmp_path, runs):
+    draw_curves(search_records(runs), tmp_path / "curves.svg")
+    text = (tmp_path / "curves.svg").read_text()
+    for words in ("best so far" if runs == 1 else "best so far, run 2", "answer", "episodes"):
+        assert f"<!-- {words} -->" in text
+    assert "generation" not in text
+
+
 def test_several_runs_are_drawn_as_their_mean_even_if_one_is_not_done():
     lines = metrics(2)[:-1]
     assert _points(lines, ("lifetime",)) == ([1, 2, 3, 4], [7.5, 7.5, 7.5, 5.0])
