@@ -25,8 +25,12 @@ FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
 def draw_curves(metrics: Sequence[Line], path: Path) -> None:
     """Draw the lines of `metrics.jsonl`: fitness above, and the diversity of each behavior's pool below.
 
-    Of a search that has no generations the best so far is drawn, over the episodes. With several runs, a curve is their mean, and the mean fitness of each run is drawn faintly. Raises FigureError
-    for an unknown kind of file, and OSError if the file cannot be written.
+    Of a search that has no generations the best so far is drawn, over the episodes. With several runs, a curve is
+    their mean, and the mean fitness of each run is drawn faintly.
+
+    Raises:
+        FigureError: the kind of file is unknown.
+        OSError: the file cannot be written.
     """
     if any("generation" not in line for line in metrics):
         with panels_in_file(path, 7.5, [3.4]) as (panel,):
