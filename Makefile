@@ -41,6 +41,7 @@ optimum: $(VENV)/.demo
 
 arms: $(VENV)/.demo
 	$(BIN)/python -m experiments.arms
+	$(BIN)/python -m experiments.abstract_arms
 
 # Damaged and heavy specs: fuzzing/.
 fuzz: $(VENV)/.demo
