@@ -48,10 +48,11 @@ from bbsd.runs.lock import only_writer
 from bbsd.runs.pace import budget_of
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
+from bbsd.runs.rivals import Rival, each_run, paper_episodes, rival, spent
 from bbsd.runs.searching import ANSWER
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.solver.budget import automatic_budget
-from bbsd.solver.judgement import RANDOM_EPISODES, Judgement, judge
+from bbsd.solver.judgement import RANDOM_EPISODES, Judgement, Selection, judge
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.stopping import stop_request_of_context
@@ -60,6 +61,7 @@ from bbsd.text import Source
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from bbsd.architecture import Architecture
     from bbsd.compiler import DetailedOutcome
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
@@ -146,6 +148,8 @@ class SearchProgress:
     """The number of these episodes."""
     is_answer: bool
     """Whether the run has ended, and the best is its answer."""
+    rival: str = ""
+    """The method, where it is a rival's."""
 
     @property
     def done(self) -> int:
@@ -181,6 +185,16 @@ class Designed:
     """The mean return of random agents, for comparison."""
     seconds: float
     """How long the design took."""
+    selection: Selection
+    """What selection among random agents has to work on."""
+    spent: int
+    """The episodes of all runs."""
+    each: tuple[tuple[Interval, tuple[str, ...]], ...]
+    """The mean return of each run's answer on the same new episodes, and its structure; none of a single run."""
+    rivals: tuple[Rival, ...]
+    """What other methods achieved with the same budget."""
+    first_reward: int | None
+    """Where all random agents earn the same: the episodes after which the search had a better design."""
 
     @property
     def mean(self) -> float:
@@ -349,6 +363,7 @@ def design(
     ready: Processes | None = None,
     more: int | None = None,
     within: float | None = None,
+    rivals: Sequence[str] = (),
 ) -> Designed:
     """Fill the holes of a spec, and write the design and its metrics into a folder.
 
@@ -373,6 +388,7 @@ def design(
         more: Episodes of a further budget for each run that `resume` continues; the same sequence of budgets gives
             the same bytes.
         within: Seconds of each run, instead of a budget in episodes; the result cannot be reproduced.
+        rivals: Names of methods on which the same budget is spent too; what they achieve is reported beside.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -398,7 +414,7 @@ def design(
         if not resume or budgets != folder.budgets():
             folder.write_run_file(run_identity, overrides, budgets, folder.result() or None)
         command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
-        judged = _judged(command, jobs, progress, overdue, ready, loaded)
+        answers, judged, others = _judged(command, jobs, progress, overdue, ready, loaded, rivals)
         folder.gather(runs)
         text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
         folder.write_architecture(text)
@@ -415,6 +431,22 @@ def design(
         judged.lifetime,
         judged.random,
         seconds,
+        judged.selection,
+        spent(command),
+        each_run(command, answers) if runs > 1 else (),
+        others,
+        _first_reward(folder, judged.selection),
+    )
+
+
+def _first_reward(folder: Folder, selection: Selection) -> int | None:
+    """Return the episodes after which a search had a design that earns something else than all random agents."""
+    if selection.alike is None:
+        return None
+    lines = folder.lines()
+    return min(
+        (line["episodes"] for line in lines if "episodes" in line and line["mean"] != selection.alike),
+        default=None,
     )
 
 
@@ -435,13 +467,19 @@ def _judged(
     overdue: Callable[[Interrupted], object] | None,
     ready: Processes | None,
     loaded: Loaded,
-) -> Judgement:
-    """Complete the runs of a command and judge the best of their answers."""
+    rivals: Sequence[str],
+) -> tuple[list[Architecture], Judgement, tuple[Rival, ...]]:
+    """Complete the runs of a command, judge the best of their answers, and let other methods search too."""
     interrupted = Interrupted(command.folder.path)
     with _located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
         try:
             answers = complete_runs(command, jobs, progress and _metrics_listener(command, progress), ready)
-            return judge(answers, command.problem, command.settings, command.seed)
+            judged = judge(answers, command.problem, command.settings, command.seed)
+            others = (
+                rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
+                for name in rivals
+            )
+            return answers, judged, tuple(others)
         except KeyboardInterrupt:
             with stop_request_of_context():
                 interrupted.best = _keep_best(command, loaded)
@@ -506,7 +544,7 @@ def _run_folder(loaded: Loaded, run_identity: Identity, out: Path | None, *, res
 
 
 def _metrics_listener(
-    command: Command, progress: Callable[[AnyProgress], None]
+    command: Command, progress: Callable[[AnyProgress], None], rival_name: str = ""
 ) -> Callable[[dict[str, Any]], None]:
     """Return a function that reports the metrics of a generation as progress."""
 
@@ -518,7 +556,8 @@ def _metrics_listener(
             progress(Progress(run, runs, line["generation"], generations, *fitness))
         else:
             best = (line["mean"], line["measured"], line["stage"] == ANSWER)
-            progress(SearchProgress(run, runs, line["episodes"], sum(command.budgets), *best))
+            budget = sum(command.budgets) or paper_episodes(command.settings)
+            progress(SearchProgress(run, runs, line["episodes"], budget, *best, rival_name))
 
     return report
 

@@ -1,10 +1,12 @@
-"""Budgets on the command line: a number of episodes, or a time."""
+"""Budgets on the command line, a number of episodes or a time; and several seeds."""
 
 import re
 
 import typer
 
 TIME = re.compile(r"(?P<number>\d+(?:\.\d+)?)\s*(?P<unit>s|m|min|h)")
+SEEDS = re.compile(r"(?P<first>\d+)-(?P<last>\d+)")
+MOST_SEEDS = 10_000
 SECONDS = {"s": 1, "m": 60, "min": 60, "h": 3600}
 
 
@@ -23,3 +25,12 @@ def read_budget(text: str | None) -> tuple[list[str], float | None]:
     except ValueError:
         message = f'"{text}" is neither a number of episodes, such as 300_000, nor a time, such as 20s or 5m'
         raise typer.BadParameter(message, param_hint="--budget") from None
+
+
+def read_seeds(text: str) -> range:
+    """Return the seeds from the first to the last one of A-B. Raises BadParameter for another text."""
+    match = SEEDS.fullmatch(text.strip())
+    seeds = range(int(match["first"]), int(match["last"]) + 1) if match else range(0)
+    if not 0 < len(seeds) <= MOST_SEEDS:
+        raise typer.BadParameter(f'"{text}" is not a range of seeds, such as 0-9', param_hint="--seeds")
+    return seeds

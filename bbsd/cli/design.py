@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.budget import read_budget
+from bbsd.cli.budget import read_budget, read_seeds
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.report.figures import draw_curves, require_figure
-from bbsd.report.plain import design_plain, json_text
+from bbsd.report.plain import design_plain, disagreement_plain, json_text
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from contextlib import AbstractContextManager
 
     from bbsd.api import Designed, Interrupted
@@ -37,6 +38,14 @@ def design(
     runs: Annotated[
         int, typer.Option(metavar="N", min=1, help="Independent runs; the best of their designs is kept.")
     ] = 1,
+    seeds: Annotated[
+        str | None,
+        typer.Option(
+            metavar="A-B",
+            help="A design for each of several seeds, such as 0-9, each in a folder of its own, and a table of them.",
+            show_default=False,
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -75,6 +84,17 @@ def design(
     plot: Annotated[
         bool, typer.Option("--plot", help="Also draw fitness and diversity over the generations: curves.png.")
     ] = False,
+    rival: Annotated[
+        str | None,
+        typer.Option(
+            metavar="METHOD",
+            help="Spend the same budget on another method too, and show what it achieves.",
+            show_default=False,
+        ),
+    ] = None,
+    compare_methods: Annotated[
+        bool, typer.Option("--compare-methods", help="Spend the same budget on every other method too.")
+    ] = False,
     as_json: AsJson = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only estimate what the design would cost; write nothing.")
@@ -104,7 +124,7 @@ def design(
     loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides)
     if not quiet:
         _say_which_method(loaded)
-    with _workers(0 if dry_run or resume else min(runs, jobs) - 1) as ready:
+    with _workers(0 if dry_run or resume or seeds else min(runs, jobs) - 1) as ready:
         from bbsd import api
         from bbsd.report.progress import generation_listener
 
@@ -121,9 +141,9 @@ def design(
             _say_how_to_continue(stopped, begin="\n" if console.is_terminal and not quiet else "")
             leave_now(INTERRUPTED)
 
-        try:
+        def design_one(loaded: "Loaded", seed: int, out: Path | None, *, resume: bool) -> "Designed":
             with generation_listener(console, quiet=quiet) as listener:
-                designed = api.design(
+                return api.design(
                     loaded,
                     seed=seed,
                     runs=runs,
@@ -134,18 +154,50 @@ def design(
                     overrides=overrides,
                     more=more,
                     within=within,
+                    rivals=_rivals(rival, loaded, every=compare_methods),
                     progress=listener,
                     overdue=leave,
                     ready=ready,
                 )
+
+        try:
+            if seeds is not None:
+                base = out or Path("runs") / f"{spec.stem}-seeds{seeds}"
+                several = {}
+                for each in read_seeds(seeds):
+                    part = base / f"seed-{each}"
+                    text = load(Source.read(str(spec)), seed=each, overrides=overrides)
+                    several[each] = design_one(text, each, part, resume=resume and part.exists())
+                _show_seeds(several, as_json=as_json)
+                return
+            designed = design_one(loaded, seed, out, resume=resume)
         except api.Interrupted as stopped:
-            _say_how_to_continue(stopped)
+            _say_how_to_continue(stopped, out=out if seeds is None else base)
             raise typer.Exit(INTERRUPTED) from None
     if within is not None:
         say("a budget by time cannot be reproduced: the same command may give another design")
     _show(designed, seed, runs, as_json=as_json)
     if plot:
         _draw_curves(designed)
+
+
+def _show_seeds(several: "Mapping[int, Designed]", *, as_json: bool) -> None:
+    if as_json:
+        designs = [design_plain(designed, seed, 1) for seed, designed in several.items()]
+        show(json_text({"designs": designs, **disagreement_plain(several.values())}))
+        return
+    from bbsd.report.tables import seeds_table
+
+    show_table(seeds_table(several))
+
+
+def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ...]:
+    from bbsd.runs.rivals import all_rivals
+
+    others = all_rivals(loaded.spec.design.chosen_method)
+    if name is not None and name not in others:
+        raise typer.BadParameter(f"{name} is none of {', '.join(others)}", param_hint="--rival")
+    return others if every else () if name is None else (name,)
 
 
 def _workers(count: int) -> "AbstractContextManager[Processes | None]":
@@ -173,14 +225,14 @@ def _say_which_method(loaded: "Loaded") -> None:
         )
 
 
-def _say_how_to_continue(stopped: "Interrupted", begin: str = "") -> None:
+def _say_how_to_continue(stopped: "Interrupted", begin: str = "", out: Path | None = None) -> None:
     best = stopped.best
     kept = f"stopped; what was done is kept in {stopped.folder}."
     if best is not None:
         kept += (
             f" The best so far, {best.architecture}, earned {best.mean:.6g} in {best.episodes:,} episodes."
         )
-    say(f"{begin}{kept} To continue: {_resume_command(stopped.folder)}")
+    say(f"{begin}{kept} To continue: {_resume_command(out or stopped.folder)}")
 
 
 def _resume_command(folder: Path) -> str:

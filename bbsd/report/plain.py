@@ -6,11 +6,14 @@ import json
 from math import isfinite
 from typing import TYPE_CHECKING, TypeAlias
 
+from bbsd.report.warnings import disagreement, warnings_of
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from bbsd.api import Designed
     from bbsd.evaluation import Evaluation, Interval
+    from bbsd.runs.rivals import Rival
 
 Plain: TypeAlias = "Mapping[str, Plain] | Sequence[Plain] | str | int | float | bool | None"
 
@@ -40,8 +43,8 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
 
 
 def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
-    """Return the result of a design, with its seed and number of runs."""
-    return {
+    """Return the result of a design, with its seed and number of runs; runs and rivals only if there are several."""
+    plain: dict[str, Plain] = {
         "architecture": str(designed.architecture),
         "return": interval_plain(designed.evaluation.returns),
         "episodes": designed.evaluation.episodes,
@@ -52,6 +55,37 @@ def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
         "seconds": finite_or_none(designed.seconds),
         "seed": seed,
         "runs": runs,
+        "search_episodes": designed.spent,
+    }
+    if designed.each:
+        plain["each_run"] = [
+            {"return": interval_plain(returns), "structure": list(structure)}
+            for returns, structure in designed.each
+        ]
+    if len(designed.rivals) == 1:
+        plain["rival"] = rival_plain(designed.rivals[0])
+    elif designed.rivals:
+        plain["rivals"] = [rival_plain(rival) for rival in designed.rivals]
+    if warnings := warnings_of(designed):
+        plain["warnings"] = warnings
+    return plain
+
+
+def disagreement_plain(designs: Iterable[Designed]) -> dict[str, Plain]:
+    """Return a warning where designs of several seeds disagree, else nothing."""
+    warning = disagreement([designed.evaluation.returns for designed in designs])
+    return {"warnings": [warning]} if warning else {}
+
+
+def rival_plain(rival: Rival) -> dict[str, Plain]:
+    """Return what another method achieved."""
+    return {
+        "method": rival.method,
+        "return": None if rival.returns is None else finite_or_none(rival.returns.mean),
+        "ci95": None if rival.returns is None else interval_plain(rival.returns)["ci95"],
+        "episodes": rival.episodes,
+        "structure": list(rival.structure),
+        **({"reason": rival.reason} if rival.reason else {}),
     }
 
 

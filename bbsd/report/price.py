@@ -24,13 +24,19 @@ def price_text(price: Price) -> str:
     rows = {
         "structure": layers,
         "search space": f"10^{price.decades:.1f} designs",
-        "episodes": f"{price.episodes:,} in the generations, about {price.further_episodes:,} to choose and judge",
+        "episodes": _episodes(price),
         "steps": f"{price.steps:,} at most, counted for each robot",
         "memory": f"about {price.bytes / 1e6:,.0f} MB",
         "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs per episode, "
         f"{duration(price.starting + price.compiling)} to start, compile and draw",
     }
     return "\n".join([*_tables(price), "", *(f"{name:<14}{text}" for name, text in rows.items())])
+
+
+def _episodes(price: Price) -> str:
+    if price.method == "paper":
+        return f"{price.episodes:,} in the generations, about {price.further_episodes:,} to choose and judge"
+    return f"{price.episodes:,} to search and choose (method {price.method}), {price.further_episodes:,} to judge"
 
 
 def _tables(price: Price) -> list[str]:

@@ -68,7 +68,8 @@ def _position(progress: AnyProgress) -> str:
     run = f"run {progress.run}/{progress.runs}, " if progress.runs > 1 else ""
     if isinstance(progress, GenerationProgress):
         return f"{run}generation {progress.generation}/{progress.generations}"
-    return f"{run}{progress.episodes:,} of {progress.budget:,} episodes"
+    rival = f"rival {progress.rival}, " if progress.rival else ""
+    return f"{rival}{run}{progress.episodes:,} of {progress.budget:,} episodes"
 
 
 def _phase(progress: AnyProgress) -> str:
@@ -92,7 +93,7 @@ class _Tenths:
 
     def __init__(self, console: Console) -> None:
         self._console = console
-        self._printed: dict[int, int] = {}
+        self._printed: dict[tuple[str, int], int] = {}
 
     def show(self, progress: AnyProgress) -> None:
         """Print a line if a tenth of the run was completed."""
@@ -100,9 +101,10 @@ class _Tenths:
         before = 0
         if isinstance(progress, GenerationProgress):
             before = (progress.done - 1) * PLAIN_LINES // progress.total
-        if tenth > self._printed.get(progress.run, before):
+        who = ("" if isinstance(progress, GenerationProgress) else progress.rival, progress.run)
+        if tenth > self._printed.get(who, before):
             self._console.print(progress_line(progress), markup=False, highlight=False, soft_wrap=True)
-        self._printed[progress.run] = max(tenth, before)
+        self._printed[who] = max(tenth, before)
 
 
 def _live_display(console: Console) -> rich_progress.Progress:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import isnan
+from statistics import fmean, stdev
 from typing import TYPE_CHECKING
 
 from rich.console import Group
@@ -12,14 +13,15 @@ from rich.text import Text
 from bbsd.errors import escape
 from bbsd.report.bars import bar
 from bbsd.report.numbers import column, count, duration, percent
+from bbsd.report.warnings import disagreement, warnings_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from rich.console import RenderableType
 
     from bbsd.api import Designed
-    from bbsd.evaluation import Evaluation
+    from bbsd.evaluation import Evaluation, Interval
 
 BAR_WIDTH = 24
 INTERVAL = "95 % interval"
@@ -47,7 +49,45 @@ def design_table(designed: Designed) -> RenderableType:
     path = escape(str(designed.architecture))
     # People copy the path, so it is never broken into lines.
     where = Text(f"{path}, designed in {duration(designed.seconds)}", no_wrap=True, overflow="ignore")
-    return Group(*_separated([_structure(designed.structure), _fitness(designed), where]))
+    parts: list[RenderableType] = [_structure(designed.structure), _fitness(designed)]
+    if designed.each:
+        parts.append(_runs(designed))
+    parts += [Text(warning, "yellow") for warning in warnings_of(designed)]
+    return Group(*_separated([*parts, where]))
+
+
+def runs_table(rows: Sequence[tuple[str, Interval, Sequence[str]]], heading: str = "run") -> RenderableType:
+    """Return a table of runs, each with its mean return and its structure, and their spread."""
+    table = _table(heading, "mean return", INTERVAL, "structure, highest layer first", right=[0, 1])
+    means = [interval.mean for _, interval, _ in rows]
+    spread = stdev(means) if len(means) > 1 else 0.0
+    texts = column([value for _, each, _ in rows for value in (each.mean, each.low, each.high)] + [spread])
+    for index, (name, _, structure) in enumerate(rows):
+        mean, low, high = texts[3 * index : 3 * index + 3]
+        table.add_row(name, mean, f"{low} to {high}", Text(escape(" ".join(structure))))
+    mean = column([*means, fmean(means)])[-1]
+    table.add_row("mean", mean, "", f"standard deviation {texts[-1]}")
+    return table
+
+
+def seeds_table(several: Mapping[int, Designed]) -> RenderableType:
+    """Return a table of designs, one for each seed, and where the best of them is."""
+    rows = [
+        (str(seed), designed.evaluation.returns, designed.structure) for seed, designed in several.items()
+    ]
+    best = max(several.values(), key=lambda designed: designed.mean)
+    where = Text(f"best: {escape(str(best.architecture))}", no_wrap=True, overflow="ignore")
+    parts: list[RenderableType] = [runs_table(rows, "seed")]
+    if warning := disagreement([returns for _, returns, _ in rows]):
+        parts.append(Text(warning, "yellow"))
+    return Group(*_separated([*parts, where]))
+
+
+def _runs(designed: Designed) -> RenderableType:
+    rows = [
+        (str(index), returns, structure) for index, (returns, structure) in enumerate(designed.each, start=1)
+    ]
+    return runs_table(rows)
 
 
 def _separated(parts: Sequence[RenderableType]) -> Iterable[RenderableType]:
@@ -129,6 +169,11 @@ def _fitness(designed: Designed) -> Table:
     rows = {"fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode"))}
     if designed.lifetime is not None:
         rows["lifetime fitness"] = (designed.lifetime, count(designed.lifetime.count, "lifetime"))
+    for rival in designed.rivals:
+        if rival.returns is None:
+            continue
+        basis = f"after {count(rival.episodes, 'episode')}"
+        rows[f"rival {rival.method}"] = (rival.returns, basis)
     rows["random agents"] = (designed.random, count(designed.random.count, "agent"))
     intervals = [interval for interval, _ in rows.values()]
     texts = column(

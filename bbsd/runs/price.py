@@ -13,7 +13,8 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 from bbsd.language.meaning.structure import OPEN_LAYER
-from bbsd.runs.sampling import sample
+from bbsd.runs.sampling import sample, sample_search
+from bbsd.solver.budget import automatic_budget
 from bbsd.solver.judgement import RANDOM_AGENTS, RANDOM_EPISODES
 from bbsd.solver.race import FIRST_ROUND
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 SAMPLE = name_word("sample")
 RACED = 2 * FIRST_ROUND
 """Episodes of each candidate in the final race, by experience: many behave alike, most are out early."""
+SEARCHED = 5_000
+"""Designs that a search holds in memory: a round's, its champions and copies of them."""
 NUMBER = 8
 """Bytes of a number."""
 
@@ -69,6 +72,7 @@ class Price:
     """Microseconds of an agent's episode in a lifetime, learning included."""
     seconds: float
     """Seconds of the whole, estimated."""
+    method: str = "paper"
 
 
 def price(
@@ -79,6 +83,8 @@ def price(
     Times are processor times, so that they do not depend on what else the machine does. With several jobs, runs go side
     by side and threads share episodes.
     """
+    if settings.method != "paper":
+        return _price_of_search(problem, settings, seed, n_runs, jobs, starting)
     processes = min(n_runs, jobs)
     sampled = replace(problem, jobs=jobs // processes)
     measured = sample(sampled, replace(settings, sharing="uniform"), fold(seed_key(seed), SAMPLE))
@@ -107,6 +113,39 @@ def price(
         drawing=drawing,
         microseconds=measured.episode * 1e6,
         seconds=starting + measured.compiling + rounds * run + judging + drawing,
+    )
+
+
+def _price_of_search(
+    problem: Problem, settings: Settings, seed: int, n_runs: int, jobs: int, starting: float
+) -> Price:
+    """Return the price of so many searches, from the first rounds of one."""
+    processes = min(n_runs, jobs)
+    budget = settings.budget or automatic_budget(problem)
+    sampled = replace(problem, jobs=jobs // processes)
+    measured = sample_search(sampled, settings, fold(seed_key(seed), SAMPLE), budget)
+    rounds = -(-n_runs // processes)
+    further = settings.answer.judged + RANDOM_AGENTS * RANDOM_EPISODES
+    episode = measured.episode / measured.speedup
+    drawing = RANDOM_AGENTS * measured.random_agent
+    environment = problem.meaning.spec.environment
+    cells = sum(table.n_cells for table in problem.tables)
+    return Price(
+        tables=_tables(problem),
+        layers=len(problem.layers),
+        open_layers=int(np.count_nonzero(problem.layers == OPEN_LAYER)),
+        decades=problem.decades,
+        episodes=n_runs * budget,
+        further_episodes=further,
+        steps=(n_runs * budget + further) * environment.steps * environment.robots,
+        bytes=processes * (resident() + SEARCHED * cells),
+        starting=starting,
+        compiling=measured.compiling,
+        breeding=0.0,
+        drawing=drawing,
+        microseconds=measured.episode * 1e6,
+        seconds=starting + measured.compiling + (rounds * budget + further) * episode + drawing,
+        method=settings.method,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
@@ -10,9 +10,11 @@ from bbsd.evaluation import detailed_outcomes
 from bbsd.kernel.keys import keys
 from bbsd.runs import metrics
 from bbsd.runs.rehearsal import rehearse
+from bbsd.runs.searching import Course
 from bbsd.runs.state import RunState, run_arrays
 from bbsd.solver.generation import initial_state, next_generation
 from bbsd.solver.random_agents import random_agents
+from bbsd.solver.search import search_budget
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -86,6 +88,34 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     speedup = min(max(1.0, long / clock), problem.jobs)
     random_agent = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
     return Sample(max(0.0, first - second), breeding, agent, episode, random_agent, speedup)
+
+
+def sample_search(problem: Problem, settings: Settings, key: int, budget: int) -> Sample:
+    """Run the first rounds of a search until they take long enough to be measured."""
+    course = Course(problem, replace(settings, budget=budget), key, 0)
+    first, second = (_seconds(_rehearse_judgement, problem, settings, key) for _ in range(2))
+    search = course.method.begin(course.arena, course.stream, search_budget(budget))
+    began, clock = process_time(), perf_counter()
+    while search.spent < search_budget(budget) and process_time() - began < LONG_ENOUGH:
+        search = course.method.advance(search, course.arena, course.stream, search_budget(budget))
+    taken, passed = process_time() - began, perf_counter() - clock
+    random_agent = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
+    return Sample(
+        compiling=max(0.0, first - second),
+        breeding=0.0,
+        agent=0.0,
+        episode=max(taken, LEAST) / max(search.spent, 1),
+        random_agent=random_agent,
+        speedup=min(max(1.0, taken / passed), problem.jobs),
+    )
+
+
+def _rehearse_judgement(problem: Problem, settings: Settings, key: int) -> None:
+    """Call once everything that a search and the judgement of its answer compile."""
+    rehearse(problem, settings)
+    agents = random_agents(problem, key, 1)
+    for _ in detailed_outcomes(problem, agents, keys(key, 0, 1), settings.coevolution.generations):
+        pass
 
 
 def _seconds(function: Callable[..., object], *arguments: object) -> float:

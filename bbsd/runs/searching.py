@@ -13,10 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bbsd.errors import UsageError
 from bbsd.evaluation.sums import deviation, mean, row_means
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.runs.state import RunState, Searching
 from bbsd.solver.arena import Arena
+from bbsd.solver.methods.q_learning import TooManyJointCells
 from bbsd.solver.methods.registry import METHODS
 from bbsd.solver.search import ROUNDS, final_race, search_budget
 from bbsd.solver.space import Designs
@@ -49,6 +51,12 @@ CHALLENGERS = 3
 """Champions that a record compares with the best so far."""
 
 
+class UnsuitableMethod(UsageError):
+    """A method that cannot search in the space of this spec."""
+
+    advice = "choose another one, such as --set design.method=auto"
+
+
 @dataclass(frozen=True)
 class Course:
     """What a run is a run of."""
@@ -77,7 +85,12 @@ class Course:
 
     def start(self, budget: int) -> RunState:
         """Return the state of the run before its first round."""
-        search = self.method.begin(self.arena, self.stream, search_budget(budget))
+        try:
+            search = self.method.begin(self.arena, self.stream, search_budget(budget))
+        except TooManyJointCells as error:
+            raise UnsuitableMethod(
+                f"the method {self.settings.method} cannot design this spec: {error}"
+            ) from None
         champions = search.champions
         none = Designs(champions.tables[:0], champions.structures[:0])
         return RunState(self.run, Searching(search=search, best=none))

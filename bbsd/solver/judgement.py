@@ -51,24 +51,64 @@ class Judgement:
     """
     random: Interval
     """Mean return of random agents of the same design space, each in episodes of its own, over agents."""
+    selection: Selection
+    """What selection among random agents has to work on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """Whether random agents earn different returns at all."""
+
+    alike: float | None
+    """The return that all of them had in all episodes; None where returns differ."""
+    unearned: tuple[str, ...]
+    """The reward terms that were zero in all their episodes."""
+    agents: int
+    episodes: int
 
 
 def judge(answers: Sequence[Architecture], problem: Problem, settings: Settings, seed: int) -> Judgement:
     """Choose the best of the runs' answers and evaluate it on fresh episodes."""
     key = seed_key(seed)
-    entrants = distinct(answers, problem)
-    best = entrants[race(problem, entrants, fold(key, BEST), settings.answer.episodes).winner]
+    best = best_of(answers, problem, settings, seed)
     generation = settings.coevolution.generations
     fresh = keys(fold(key, JUDGED), 0, settings.answer.judged)
     judged = evaluation(problem, detailed_outcomes(problem, agents_of([best]), fresh, generation), 1)
     lifetime = _lifetime_fitness(best, problem, settings, key) if settings.method == "paper" else None
-    return Judgement(best, judged, lifetime, _random_returns(problem, generation, fold(key, RANDOM)))
+    return Judgement(best, judged, lifetime, *_random_returns(problem, generation, fold(key, RANDOM)))
 
 
-def _random_returns(problem: Problem, generation: int, key: int) -> Interval:
+def best_of(answers: Sequence[Architecture], problem: Problem, settings: Settings, seed: int) -> Architecture:
+    """Return the best of several runs' answers, by a race."""
+    entrants = distinct(answers, problem)
+    finish = race(problem, entrants, fold(seed_key(seed), BEST), settings.answer.episodes)
+    return entrants[finish.winner]
+
+
+def fresh_returns(architecture: Architecture, problem: Problem, settings: Settings, seed: int) -> Interval:
+    """Return the return of a design on the fresh episodes on which all answers of a seed are judged."""
+    fresh = keys(fold(seed_key(seed), JUDGED), 0, settings.answer.judged)
+    generation = settings.coevolution.generations
+    return interval(returns_of(problem, agents_of([architecture]), fresh, generation)[0])
+
+
+def _random_returns(problem: Problem, generation: int, key: int) -> tuple[Interval, Selection]:
     agents = random_agents(problem, key, RANDOM_AGENTS)
     episodes = own_keys(key, RANDOM_AGENTS, RANDOM_EPISODES)
-    return interval(row_means(returns_of(problem, agents, episodes, generation)))
+    outcomes = [
+        (outcome.returns, np.any(outcome.terms != 0, axis=0))
+        for outcome in detailed_outcomes(problem, agents, episodes, generation)
+    ]
+    returns = np.concatenate([each for each, _ in outcomes])
+    earned = np.any([each for _, each in outcomes], axis=0)
+    terms = zip(problem.meaning.episode.reward, earned, strict=True)
+    selection = Selection(
+        float(returns[0]) if np.all(returns == returns[0]) else None,
+        tuple(name for name, is_earned in terms if not is_earned),
+        RANDOM_AGENTS,
+        len(returns),
+    )
+    return interval(row_means(returns.reshape(RANDOM_AGENTS, -1))), selection
 
 
 def _lifetime_fitness(best: Architecture, problem: Problem, settings: Settings, key: int) -> Interval:

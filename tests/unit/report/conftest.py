@@ -10,6 +10,7 @@ import pytest
 from bbsd.api import Designed
 from bbsd.evaluation import Evaluation, Interval, Trace
 from bbsd.expression.node_data import Slot
+from bbsd.solver.judgement import Selection
 
 
 @pytest.fixture
@@ -36,6 +37,11 @@ def designed(evaluation):
         lifetime=Interval(299.2, 20.0, 296.2, 302.2, 200),
         random=Interval(-612.3, 300.0, -642.5, -582.1, 1000),
         seconds=41.2,
+        selection=Selection(None, (), 1000, 10_000),
+        spent=250_000,
+        each=(),
+        rivals=(),
+        first_reward=None,
     )
 
 

@@ -7,7 +7,8 @@ from math import inf, nan
 import pytest
 
 from bbsd.evaluation import Interval
-from bbsd.report.plain import design_plain, evaluation_plain, json_text
+from bbsd.report.plain import design_plain, disagreement_plain, evaluation_plain, json_text
+from bbsd.runs.rivals import Rival
 
 
 def test_an_evaluation_as_plain_data(evaluation):
@@ -43,6 +44,7 @@ def test_a_design_as_plain_data(designed):
         "seconds": 41.2,
         "seed": 7,
         "runs": 2,
+        "search_episodes": 250_000,
     }
 
 
@@ -56,3 +58,33 @@ def test_json_has_null_for_what_is_not_finite(evaluation):
 def test_json_refuses_a_nan_that_was_overlooked():
     with pytest.raises(ValueError, match="not JSON compliant"):
         json_text({"mean": nan})
+
+
+def around(mean):
+    return Interval(mean, 1.0, mean - 0.5, mean + 0.5, 1000)
+
+
+def test_a_rival_stands_beside_a_design(designed):
+    random = Rival("random", around(304.5), 250_000, ("push_more",))
+    plain = design_plain(replace(designed, rivals=(random,)), seed=7, runs=1)
+    assert plain["rival"] == {
+        "method": "random",
+        "return": 304.5,
+        "ci95": [304.0, 305.0],
+        "episodes": 250_000,
+        "structure": ["push_more"],
+    }
+    unable = Rival("q", None, 0, (), "too many cells")
+    plain = design_plain(replace(designed, rivals=(random, unable)), seed=7, runs=1)
+    assert [rival["method"] for rival in plain["rivals"]] == ["random", "q"]
+    assert plain["rivals"][1]["reason"] == "too many cells"
+    assert plain["warnings"] == ["rival q: too many cells"]
+
+
+def test_runs_that_disagree_are_a_warning(designed):
+    several = replace(designed, each=((around(9.0), ("a",)), (around(1.0), ("b",))))
+    plain = design_plain(several, seed=7, runs=2)
+    assert [run["structure"] for run in plain["each_run"]] == [["a"], ["b"]]
+    assert plain["warnings"] == ["local optima: 1 of 2 runs is up to 8.0000 below the best"]
+    assert disagreement_plain([designed, designed]) == {}
+    json.loads(json_text(plain))

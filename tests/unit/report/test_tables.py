@@ -9,7 +9,8 @@ import pytest
 from rich.console import Console
 
 from bbsd.evaluation import Interval
-from bbsd.report.tables import design_table, evaluation_table
+from bbsd.report.tables import design_table, evaluation_table, seeds_table
+from bbsd.runs.rivals import Rival
 
 
 def printed(table, width=100):
@@ -99,3 +100,34 @@ def test_expectations_are_shown_where_there_are_any(evaluation):
     below = text[text.index("expectation of") :]
     assert row(below, "stop_at_goal") == ["stop_at_goal", "50.0", "%", "█" * 12]
     assert row(below, "push_more") == ["push_more", "never", "in", "control"]
+
+
+def around(mean):
+    return Interval(mean, 1.0, mean - 0.5, mean + 0.5, 1000)
+
+
+def test_runs_stand_in_a_table_with_their_spread(designed):
+    several = replace(designed, each=((around(9.0), ("push", "stop")), (around(1.0), ("stop", "push"))))
+    text = printed(design_table(several))
+    assert row(text, "   1")[:4] == ["1", "9.0000", "8.5000", "to"]
+    assert row(text, "mean")[1:2] == ["5.0000"]
+    assert "standard deviation 5.6569" in text
+    assert "local optima: 1 of 2 runs is up to 8.0000 below the best" in text
+
+
+def test_seeds_stand_in_a_table_with_the_best_of_them(designed):
+    worse = replace(designed, evaluation=replace(designed.evaluation, returns=around(3.0)))
+    text = printed(seeds_table({4: worse, 5: designed}))
+    assert row(text, "   4")[:2] == ["4", "3.00"]
+    assert "best: runs/lifting-seed0/architecture.yaml" in text
+
+
+def test_a_rival_has_a_row_and_a_search_no_lifetimes(designed):
+    text = printed(
+        design_table(
+            replace(designed, lifetime=None, rivals=(Rival("random", around(304.5), 250_000, ("push",)),))
+        )
+    )
+    assert row(text, "rival random")[2] == "304.50"
+    assert "after 250,000 episodes" in text
+    assert "lifetime" not in text
