@@ -1,4 +1,4 @@
-"""The paper's arms of the lifting task, and its claims L1, L2, L4 and L5 on them: `make arms`.
+"""The paper's arms of the lifting task, and its claims L1 to L5 on them: `make arms`.
 
 An arm is a shipped spec, maybe with one setting changed. As in Fig. 13 to 21 the figures are those of the whole
 population, not of its best: the mean fitness and lifetime fitness of the agents of the last five generations.
@@ -59,6 +59,13 @@ class Arm:
     fitness: Floats
     lifetime: Floats
     spread: Floats
+    curve: Floats
+    """The mean fitness in each generation, (n_seeds, n_generations)."""
+
+    def at(self, generation: int) -> Floats:
+        """Return the mean fitness in a generation, which counts from 1, one for each seed."""
+        column: Floats = self.curve[:, generation - 1]
+        return column
 
 
 @dataclass(frozen=True)
@@ -82,9 +89,15 @@ def population(spec: str, overrides: Sequence[str], folder: Path) -> Arm:
         designed = bbsd.design(
             spec_path(spec), seed=seed, out=folder / str(seed), overrides=(*overrides, *UNJUDGED)
         )
-        lines = (designed.folder / "metrics.jsonl").read_text().splitlines()[-LAST:]
+        lines = (designed.folder / "metrics.jsonl").read_text().splitlines()
         rows.append([[json.loads(line)[key] for key in ("mean", "lifetime", "sd")] for line in lines])
-    return Arm(*np.mean(rows, axis=1).T)
+    return arm_of(np.array(rows))
+
+
+def arm_of(rows: Floats) -> Arm:
+    """Return the figures of an arm from mean, lifetime fitness and spread, (n_seeds, n_generations, 3)."""
+    fitness, lifetime, spread = rows[:, -LAST:].mean(axis=1).T
+    return Arm(fitness, lifetime, spread, rows[:, :, 0])
 
 
 def lift(seed: int, folder: Path) -> Lift:
@@ -131,7 +144,7 @@ def close_line(claim: str, arms: Sequence[Floats], hand: float) -> str:
 
 
 def claim_lines(arms: dict[str, Arm], hand: float, hand_spread: float) -> list[str]:
-    """Return what the paper says of these arms (Fig. 13, 14, 18, 19), each with its verdict."""
+    """Return what the paper says of these arms (Fig. 13 to 19), each with its verdict."""
     uniform, cultured = arms["uniform, no culture"], arms["uniform, culture"]
     value, value_cultured = arms["value, no culture"], arms["value, culture"]
     value_fixed = arms["value, order given"]
@@ -160,6 +173,9 @@ def claim_lines(arms: dict[str, Arm], hand: float, hand_spread: float) -> list[s
         ),
         above_line("L2: lifetime fitness is higher with culture", cultured.lifetime, uniform.lifetime),
         above_line("L2: and gains more by culture than final fitness does", gain, zero),
+        above_line("L3: in generation 1 learners lead", uniform.at(1), fixed.at(1)),
+        above_line("L3: in generation 5 learners with culture do", cultured.at(5), fixed.at(5)),
+        above_line("L3: in generation 15 the order given leads", fixed.at(15), uniform.at(15)),
         above_line(
             "L4: order given: uniform sharing is above value-based", fixed.fitness, value_fixed.fitness
         ),

@@ -25,6 +25,18 @@ def test_episodes_are_those_of_all_generations_of_all_runs(price):
     assert price.episodes == 2 * evolved.generations * evolved.agents * design.learning.episodes
 
 
+def test_sharing_by_differences_runs_the_last_episodes_again_for_each_behavior_that_evolves(price):
+    design = api.load(SPEC).spec.design
+    more = api.price(SPEC, runs=2, overrides=["design.sharing=difference"])
+    evolving = sum(table.open_cells > 0 for table in price.tables)
+    assert evolving > 0
+    agents = 2 * design.coevolution.generations * design.coevolution.agents
+    assert more.episodes == price.episodes + agents * design.learning.last * evolving
+    assert (
+        more.further_episodes == price.further_episodes
+    )  # nobody's fitness is shared after the last generation
+
+
 def test_steps_are_those_of_all_robots_in_all_episodes(price):
     environment = api.load(SPEC).spec.environment
     assert price.steps == (price.episodes + price.further_episodes) * environment.steps * environment.robots
