@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.compiler.joint_control import JointControl
-from bbsd.evaluation import returns_of
+from bbsd.evaluation import require_finite, returns_of
 from bbsd.evaluation.sums import row_means
 from bbsd.kernel.jit import jit
 from bbsd.kernel.keys import keys
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler import Problem
     from bbsd.compiler.steps import Steps
+    from bbsd.compiler.team import Learn
     from bbsd.evaluation import Agents
     from bbsd.solver.space import Designs
 
@@ -56,6 +57,29 @@ class Arena:
         """Run agents of pools like the designs of `returns`, (n_agents, count)."""
         raise_if_stopped()
         return returns_of(self.problem, agents, keys(key, first, count), self.generation)
+
+    def practice(
+        self, designs: Designs, key: int, rates: NDArray[np.float64], learn: Learn
+    ) -> NDArray[np.float64]:
+        """Run each design in an episode of its own in which its robots stray from it, and learn from the steps.
+
+        Spends len(designs) episodes. Raises KeyboardInterrupt where a stop was requested.
+
+        Args:
+            designs: strayed from in open cells only.
+            key: names the stream of the episodes.
+            rates: the probability that a robot strays in a step, (n_designs,).
+            learn: is given the steps of each batch of designs, in their order.
+
+        Returns:
+            (n_designs,).
+        """
+        raise_if_stopped()
+        agents, streams = self.space.agents(designs), keys(key, 0, len(designs))
+        team = self.problem.assemble(agents.pools, agents.members, self.generation)
+        returns = team.practice(streams, agents.structures, rates, self.space.is_open, learn)
+        require_finite(self.problem, agents, streams, returns, self.generation)
+        return returns
 
     def means(self, designs: Designs, key: int, count: int) -> NDArray[np.float64]:
         """Return the mean return of each design in the same episodes of a stream, (n_designs,)."""

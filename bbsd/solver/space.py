@@ -72,6 +72,16 @@ class Space:
         return np.concatenate([table.given for table in self.problem.tables])
 
     @cached_property
+    def is_open(self) -> NDArray[np.uint8]:
+        """1 where a cell is open, 0 where it is given, (n_cells,)."""
+        return np.where(self.given == OPEN_CELL, 1, 0).astype(np.uint8)
+
+    @cached_property
+    def first_pairs(self) -> NDArray[np.int64]:
+        """The number of each cell's first pair of a cell and a choice, and of all pairs, (n_cells + 1,)."""
+        return np.concatenate([np.zeros(1, np.int64), np.cumsum(self.choices)])
+
+    @cached_property
     def blank(self) -> NDArray[np.uint8]:
         """The given cells, No Action where one is open, (n_cells,)."""
         return np.where(self.given == OPEN_CELL, 0, self.given).astype(np.uint8)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bbsd.solver.methods import cross_entropy, hill, joint, q_learning, random_search, societies
+from bbsd.solver.methods import cross_entropy, hill, joint, practice, q_learning, random_search, societies
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,6 +16,7 @@ _METHODS: tuple[Method, ...] = (
     societies.METHOD._replace(name="auto"),
     societies.METHOD,
     cross_entropy.METHOD,
+    practice.METHOD,
     random_search.METHOD,
     hill.METHOD,
     joint.METHOD,

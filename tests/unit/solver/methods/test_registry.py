@@ -62,7 +62,14 @@ def test_a_search_spends_its_budget_to_the_last_episode_and_counts_them(method, 
         run.append(len(agents) * count)
         return agents_returns(self, agents, key, count, first)
 
+    practice = Arena.practice
+
+    def counted_practice(self, designs, key, rates, learn):
+        run.append(len(designs))
+        return practice(self, designs, key, rates, learn)
+
     monkeypatch.setattr(Arena, "agents_returns", counted)
+    monkeypatch.setattr(Arena, "practice", counted_practice)
     states = searched(method, arena(), budget)
     assert states[0].spent == 0
     assert states[-1].spent == sum(run) == budget
