@@ -26,7 +26,7 @@ VALID = sorted((TOP / "tests" / "specs" / "valid").glob("**/*.yaml"))
 TASKS = [path for path in SPECS if not path.stem.endswith("_hand")]
 SEEDS = (0, 1, 2)
 SHORT = (
-    "method=paper", "coevolution.generations=3", "coevolution.population=6", "coevolution.agents=12",
+    "coevolution.generations=3", "coevolution.population=6", "coevolution.agents=12",
     "learning.episodes=4", "learning.last=2", "answer.episodes=100", "answer.candidates=10", "answer.judged=100",
 )  # fmt: skip
 UNUSUAL = (
