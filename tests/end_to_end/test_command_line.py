@@ -4,52 +4,19 @@ from __future__ import annotations
 
 import ast
 import json
-import os
 import signal
 import subprocess
 import sys
-from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
-from io import BytesIO, TextIOWrapper
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 
 from bbsd import __version__
-from bbsd.cli import main
+from tests.end_to_end.commands import bbsd, process
 
 SPEC = Path(__file__).parent / "specs" / "thermostat.yaml"
 HEAVY = ("numba", "numpy", "pydantic", "yaml", "rich", "matplotlib")
 COMMANDS = ("design", "evaluate", "explain", "check", "config", "compile")
-TERMINAL = ("COLUMNS", "FORCE_COLOR", "NO_COLOR", "TERM")
-
-
-def bbsd(*words, cwd=".", encoding="utf-8"):
-    """Run a command in this process and give its code, standard output and standard error."""
-    out, err = (TextIOWrapper(BytesIO(), encoding=encoding, write_through=True) for _ in range(2))
-    environment = {key: value for key, value in os.environ.items() if key not in TERMINAL}
-    with (
-        chdir(cwd),
-        patch.object(sys, "argv", ["bbsd", *map(str, words)]),
-        patch.dict(os.environ, environment, clear=True),
-        redirect_stdout(out),
-        redirect_stderr(err),
-        pytest.raises(SystemExit) as left,
-    ):
-        main()
-    texts = [stream.buffer.getvalue().decode() for stream in (out, err)]
-    assert "\x1b" not in texts[0] + texts[1]
-    return left.value.code or 0, *texts
-
-
-@contextmanager
-def process(*words, cwd="."):
-    """Run a command in a process of its own."""
-    command = [sys.executable, "-m", "bbsd", *map(str, words)]
-    with subprocess.Popen(
-        command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as running:
-        yield running
 
 
 @pytest.fixture(scope="module")
