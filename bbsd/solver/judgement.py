@@ -62,7 +62,7 @@ class Selection:
     alike: float | None
     """The return that all of them had in all episodes; None where returns differ."""
     unearned: tuple[str, ...]
-    """The reward terms that were zero in all their episodes."""
+    """The reward terms that were zero in all their episodes, but for costs, which are written with a minus."""
     agents: int
     episodes: int
 
@@ -101,10 +101,10 @@ def _random_returns(problem: Problem, generation: int, key: int) -> tuple[Interv
     ]
     returns = np.concatenate([each for each, _ in outcomes])
     earned = np.any([each for _, each in outcomes], axis=0)
-    terms = zip(problem.meaning.episode.reward, earned, strict=True)
+    terms = zip(problem.meaning.spec.reward.items(), earned, strict=True)
     selection = Selection(
         float(returns[0]) if np.all(returns == returns[0]) else None,
-        tuple(name for name, is_earned in terms if not is_earned),
+        tuple(name for (name, term), is_earned in terms if not is_earned and not term.text.startswith("-")),
         RANDOM_AGENTS,
         len(returns),
     )
