@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -52,7 +52,7 @@ from bbsd.runs.rivals import Rival, each_run, paper_episodes, rival, spent
 from bbsd.runs.searching import ANSWER
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.solver.budget import automatic_budget
-from bbsd.solver.judgement import RANDOM_EPISODES, Judgement, Selection, judge
+from bbsd.solver.judgement import RANDOM_EPISODES, Selection, judge
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.settings import settings_of
 from bbsd.stopping import stop_request_of_context
@@ -61,7 +61,6 @@ from bbsd.text import Source
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from bbsd.architecture import Architecture
     from bbsd.compiler import DetailedOutcome
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
@@ -408,19 +407,25 @@ def design(
     run_identity = identity(loaded, seed, runs)
     folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
     with only_writer(folder):
-        if within is not None and not folder.budgets():
-            settings = replace(settings, budget=budget_of(within, problem, settings))
-        budgets = _budgets(settings, problem, folder) + (() if more is None else (more,))
+        budgets = _budgets(settings, problem, folder, more, within)
         if not resume or budgets != folder.budgets():
             folder.write_run_file(run_identity, overrides, budgets, folder.result() or None)
         command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
-        answers, judged, others = _judged(command, jobs, progress, overdue, ready, loaded, rivals)
+        listener = progress and _metrics_listener(command, progress)
+        with _interruptible(command, loaded, overdue, keep_best=True):
+            answers = complete_runs(command, jobs, listener, ready)
+            judged = judge(answers, problem, settings, seed)
         folder.gather(runs)
         text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
         folder.write_architecture(text)
         names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
         result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
         folder.write_run_file(run_identity, overrides, budgets, result)
+        with _interruptible(command, loaded, overdue, keep_best=False):
+            others = tuple(
+                rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
+                for name in rivals
+            )
     seconds = time.monotonic() - started
     return Designed(
         folder.architecture,
@@ -450,39 +455,39 @@ def _first_reward(folder: Folder, selection: Selection) -> int | None:
     )
 
 
-def _budgets(settings: Settings, problem: Problem, folder: Folder) -> tuple[int, ...]:
-    """Return the budgets of each run: those that the folder names, and what the present one has beyond them."""
+def _budgets(
+    settings: Settings, problem: Problem, folder: Folder, more: int | None, within: float | None
+) -> tuple[int, ...]:
+    """Return the budgets of each run: those that the folder names, and what is wanted beyond them."""
     if settings.method == "paper":
         return ()
     former = folder.budgets()
-    wanted = settings.budget or (sum(former) if former else automatic_budget(problem))
-    further = wanted - sum(former)
-    return (*former, further) if further > 0 else former
+    wanted = sum(former)
+    if within is None:
+        wanted = settings.budget or wanted or automatic_budget(problem)
+    elif not former:
+        wanted = budget_of(within, problem, settings)
+    further = [wanted - sum(former), more or 0]
+    return (*former, *(budget for budget in further if budget > 0))
 
 
-def _judged(
+@contextmanager
+def _interruptible(
     command: Command,
-    jobs: int,
-    progress: Callable[[AnyProgress], None] | None,
-    overdue: Callable[[Interrupted], object] | None,
-    ready: Processes | None,
     loaded: Loaded,
-    rivals: Sequence[str],
-) -> tuple[list[Architecture], Judgement, tuple[Rival, ...]]:
-    """Complete the runs of a command, judge the best of their answers, and let other methods search too."""
+    overdue: Callable[[Interrupted], object] | None,
+    *,
+    keep_best: bool,
+) -> Iterator[None]:
+    """Turn an interrupt inside into Interrupted, the best design so far being kept where there is no answer yet."""
     interrupted = Interrupted(command.folder.path)
     with _located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
         try:
-            answers = complete_runs(command, jobs, progress and _metrics_listener(command, progress), ready)
-            judged = judge(answers, command.problem, command.settings, command.seed)
-            others = (
-                rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
-                for name in rivals
-            )
-            return answers, judged, tuple(others)
+            yield
         except KeyboardInterrupt:
-            with stop_request_of_context():
-                interrupted.best = _keep_best(command, loaded)
+            if keep_best:
+                with stop_request_of_context():
+                    interrupted.best = _keep_best(command, loaded)
             raise interrupted from None
 
 

@@ -103,8 +103,8 @@ def design(
 ) -> None:
     """Fill the holes of a spec.
 
-    Evolves the behaviors, learns the structure, and writes a folder with the designed spec, the metrics of
-    each generation, and the state from which --resume continues.
+    Searches for the behaviors and the structure by the method and the budget that the spec names, and writes a
+    folder with the designed spec, the metrics on the way, and the state from which --resume continues.
     """
     from bbsd.language.loading import load
     from bbsd.text import Source

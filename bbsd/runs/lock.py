@@ -41,7 +41,7 @@ def only_writer(folder: Folder) -> Iterator[None]:
         if not _locked(descriptor):
             raise FolderInUse(f"{folder.path} is being written by {_holder(path)}")
         os.ftruncate(descriptor, 0)
-        os.pwrite(descriptor, _who().encode(), 0)
+        os.write(descriptor, _who().encode())
         yield
         os.ftruncate(descriptor, 0)
     finally:

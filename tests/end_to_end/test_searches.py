@@ -5,6 +5,7 @@ import signal
 
 import pytest
 
+from bbsd.api import Interrupted, design
 from tests.end_to_end.commands import bbsd, process
 
 SPEC = """
@@ -105,6 +106,36 @@ def test_a_second_writer_is_refused(spec, tmp_path):
         running.communicate()
     assert code == 2
     assert f"is being written by process {running.pid} on" in err
+
+
+def test_runs_side_by_side_write_the_same_bytes(spec, tmp_path):
+    words = ["design", spec, "--runs", "3", "-q", "--json"]
+    alone = bbsd(*words, "--out", tmp_path / "a")
+    together = bbsd(*words, "--out", tmp_path / "b", "--jobs", "2", "--lanes", "7")
+    assert alone[0] == together[0] == 0
+    assert written(tmp_path / "a") == written(tmp_path / "b")
+    each = [json.loads(out)["each_run"] for _, out, _ in (alone, together)]
+    assert each[0] == each[1]
+    assert len(each[0]) == 3
+
+
+def test_a_search_that_a_rival_s_interrupt_stops_has_its_answer(spec, tmp_path):
+    def stop(progress):
+        if progress.rival:
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted) as stopped:
+        design(spec, out=tmp_path / "a", rivals=["hill"], progress=stop)
+    assert stopped.value.best is None
+    assert (tmp_path / "a" / "architecture.yaml").exists()
+    assert design(spec, out=tmp_path / "a", rivals=["hill"], resume=True).rivals[0].method == "hill"
+
+
+def test_a_timed_search_is_resumed_with_the_budget_that_it_had(spec, tmp_path):
+    design(spec, out=tmp_path / "a", within=0.2)
+    before = written(tmp_path / "a")
+    design(spec, out=tmp_path / "a", within=0.2, resume=True)
+    assert written(tmp_path / "a") == before
 
 
 def test_a_rival_is_shown_beside_the_answer(spec, tmp_path):
