@@ -82,6 +82,12 @@ class QState(SearchState):
     """What the choices of the projection that loses least are worth less than the best, for each choice."""
 
 
+def has_room(arena: Arena) -> bool:
+    """Tell whether the joint partition is small enough for a table of values."""
+    partition = arena.joint_control.partition
+    return partition.is_exact and partition.n_cells * arena.joint_control.n_choices <= MOST_VALUES
+
+
 def begin(arena: Arena, key: int, budget: int) -> QState:
     """Return the state before the first round.
 
@@ -90,9 +96,9 @@ def begin(arena: Arena, key: int, budget: int) -> QState:
     """
     del key, budget
     control = arena.joint_control
-    shape = (control.partition.n_cells, control.n_choices)
-    if not control.partition.is_exact or shape[0] * shape[1] > MOST_VALUES:
+    if not has_room(arena):
         raise TooManyJointCells("the joint partition is too fine for a table of values of every joint choice")
+    shape = (control.partition.n_cells, control.n_choices)
     return QState(
         champions=no_champions(arena.problem, CAPACITY),
         values=np.zeros(shape),
@@ -103,11 +109,12 @@ def begin(arena: Arena, key: int, budget: int) -> QState:
 
 
 def advance(state: QState, arena: Arena, key: int, budget: int) -> QState:
-    """Learn from episodes; every few rounds, check what was learned instead."""
-    stream = fold(key, word_of(state.round))
-    if state.round % (CHECK_EVERY + 1) == CHECK_EVERY:
+    """Learn from episodes; every few rounds, and at last, check what was learned instead."""
+    stream, left = fold(key, word_of(state.round)), budget - state.spent
+    last_check = min((PROJECTIONS + 2) * CHECK_EPISODES, budget // 3)
+    if state.round % (CHECK_EVERY + 1) == CHECK_EVERY or left <= max(1, last_check):
         return _checked(state, arena, stream, budget)
-    count = min(max(EPISODES, budget // ROUNDS), budget - state.spent)
+    count = min(max(EPISODES, budget // ROUNDS), left - last_check)
     control = arena.joint_control
     pool = _noisy_tables(state, control, fold(stream, NOISE))
     members = (np.arange(count) % len(pool))[:, np.newaxis]

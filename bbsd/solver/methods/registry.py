@@ -5,7 +5,16 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bbsd.solver.methods import cross_entropy, hill, joint, practice, q_learning, random_search, societies
+from bbsd.solver.methods import (
+    auto,
+    cross_entropy,
+    hill,
+    joint,
+    practice,
+    q_learning,
+    random_search,
+    societies,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -13,7 +22,7 @@ if TYPE_CHECKING:
     from bbsd.solver.methods.method import Method
 
 _METHODS: tuple[Method, ...] = (
-    societies.METHOD._replace(name="auto"),
+    auto.METHOD,
     societies.METHOD,
     cross_entropy.METHOD,
     practice.METHOD,

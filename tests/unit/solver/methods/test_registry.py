@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from bbsd.compiler import Team
 from bbsd.kernel.streams import fold, word_of
 from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.solver.arena import Arena
@@ -56,20 +57,18 @@ def test_names_are_those_of_the_methods():
 @pytest.mark.parametrize("budget", [1, 7, 49, 611, 3000])
 def test_a_search_spends_its_budget_to_the_last_episode_and_counts_them(method, budget, monkeypatch):
     run = []
-    agents_returns = Arena.agents_returns
+    episode, practice = Team.episode, Team.practice
 
-    def counted(self, agents, key, count, first=0):
-        run.append(len(agents) * count)
-        return agents_returns(self, agents, key, count, first)
+    def counted_episode(self, *arguments):
+        run.append(self.size)
+        return episode(self, *arguments)
 
-    practice = Arena.practice
+    def counted_practice(self, *arguments):
+        run.append(self.size)
+        return practice(self, *arguments)
 
-    def counted_practice(self, designs, key, rates, learn):
-        run.append(len(designs))
-        return practice(self, designs, key, rates, learn)
-
-    monkeypatch.setattr(Arena, "agents_returns", counted)
-    monkeypatch.setattr(Arena, "practice", counted_practice)
+    monkeypatch.setattr(Team, "episode", counted_episode)
+    monkeypatch.setattr(Team, "practice", counted_practice)
     states = searched(method, arena(), budget)
     assert states[0].spent == 0
     assert states[-1].spent == sum(run) == budget

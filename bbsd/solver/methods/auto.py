@@ -1,0 +1,239 @@
+"""The default method: a portfolio of searches on one budget, finished by paired single changes.
+
+Each search is good where another is not: cross-entropy and societies where returns tell designs apart, practice where
+nothing is earned until choices vary within an episode. All get an opening; the one whose best design earns most in
+common episodes gets a further run; then the best designs of all climb until no single change helps. Q-learning is left
+out where its table would be too large.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.solver.champions import no_champions
+from bbsd.solver.climb import Climb, advance_climb, begin_climb
+from bbsd.solver.methods import cross_entropy, practice, q_learning, random_search, societies
+from bbsd.solver.methods.method import Method, SearchState, with_champions
+from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
+from bbsd.solver.space import Designs
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from bbsd.solver.arena import Arena
+
+OPENINGS = (
+    (random_search.METHOD, 0.02),
+    (cross_entropy.METHOD, 0.09),
+    (societies.METHOD, 0.10),
+    (practice.METHOD, 0.08),
+    (q_learning.METHOD, 0.12),
+)
+"""The searches in their order, and the share of the budget that each begins with."""
+FEW, FEW_OPENINGS = (
+    60_000,
+    ((random_search.METHOD, 0.05), (cross_entropy.METHOD, 0.25), (q_learning.METHOD, 0.25)),
+)
+"""With a budget below that, those that need the fewest episodes."""
+FURTHER_SHARE = 0.31
+"""Of the budget, what a further run of the leading search gets."""
+FINISHING = 0.72
+"""Share of the budget after which no further run is begun before the best designs have climbed."""
+NOMINEES = 12
+"""Designs of a run that take part in the common episodes."""
+CLIMBS = 3
+"""Designs that climb, each to its optimum, before another run is worth more."""
+LEAST_SHARE = 0.08
+"""Of the budget, what must be left for another run and its climb."""
+
+OPENING, RUN, COMMON, FINISH, TEMPLATE = (
+    name_word(name) for name in ("opening", "run", "common episodes", "finish", "template")
+)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AutoState(SearchState):
+    """The searches, and the climb of a good design."""
+
+    planned_in_all: int
+    """Episodes that the search was begun with."""
+    searches: tuple[SearchState, ...]
+    """The present or last run of each."""
+    planned: NDArray[np.int64]
+    """Episodes of these runs, (n_searches,)."""
+    runs: NDArray[np.int64]
+    """Runs of each search that are over, (n_searches,)."""
+    best: NDArray[np.float64]
+    """What the best design of each earns in the common episodes, -inf before its first run is over, (n_searches,)."""
+    turn: int = 0
+    """The search that has its turn; their number while designs climb."""
+    climb: Climb
+    climbs: int = 0
+    """Climbs since the last run."""
+    climbing: bool = False
+    """Whether a climb was begun and is not over."""
+    tried_tables: NDArray[np.uint8]
+    """Designs from which a climb began, or at which one ended, (n, n_cells)."""
+    tried_structures: NDArray[np.int64]
+    """(n, n_layers)."""
+
+
+def openings(arena: Arena, budget: int) -> tuple[tuple[Method, float], ...]:
+    """Return the searches that a problem and a budget allow, and the share of the budget that each begins with."""
+    return tuple(
+        (method, share)
+        for method, share in (FEW_OPENINGS if budget < FEW else OPENINGS)
+        if method is not q_learning.METHOD or q_learning.has_room(arena)
+    )
+
+
+def begin(arena: Arena, key: int, budget: int) -> AutoState:
+    """Return the state before the first round."""
+    stream = fold(key, OPENING)
+    planned = [max(1, int(share * budget)) for _, share in openings(arena, budget)]
+    searches = tuple(
+        method.begin(arena, _run_key(key, index, 0), planned[index])
+        for index, (method, _) in enumerate(openings(arena, budget))
+    )
+    some = arena.space.random(fold(stream, TEMPLATE), 1)
+    return AutoState(
+        champions=no_champions(arena.problem, CAPACITY),
+        planned_in_all=budget,
+        searches=searches,
+        planned=np.array(planned, np.int64),
+        runs=np.zeros(len(planned), np.int64),
+        best=np.full(len(planned), -np.inf),
+        climb=begin_climb(some),
+        tried_tables=some.tables[:0],
+        tried_structures=some.structures[:0],
+    )
+
+
+def _methods(state: AutoState, arena: Arena) -> list[Method]:
+    return [method for method, _ in openings(arena, state.planned_in_all)]
+
+
+def _run_key(key: int, search: int, run: int) -> int:
+    return fold(fold(fold(key, RUN), word_of(search)), word_of(run))
+
+
+def advance(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
+    """Take the search that has its turn, or the climb, a round further."""
+    further = _search_round if state.turn < len(state.searches) else _climb_round
+    after = further(state, arena, key, budget)
+    if after.spent == state.spent and after.spent < budget:
+        after = with_rest_spent(after, arena, fold(key, COMMON), min(budget - after.spent, budget // 100 + 1))
+    if after.spent >= budget and not len(after.champions.tables):
+        after = _with_own_champions(after)
+    return replace(after, round=state.round + 1)
+
+
+def _search_round(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
+    index = state.turn
+    search, method = state.searches[index], _methods(state, arena)[index]
+    most = min(int(state.planned[index]), search.spent + budget - state.spent)
+    after = method.advance(search, arena, _run_key(key, index, int(state.runs[index])), most)
+    searches = (*state.searches[:index], after, *state.searches[index + 1 :])
+    state = replace(state, searches=searches, spent=state.spent + after.spent - search.spent)
+    return state if after.spent < most else _after_run(state, arena, key, budget)
+
+
+def _with_own_champions(state: AutoState) -> AutoState:
+    """Take over what the searches know, where there were too few episodes for common ones."""
+    champions = state.champions
+    for search in state.searches:
+        own = search.champions
+        champions = with_champions(champions, Designs(own.tables, own.structures), own.fitness)
+    return replace(state, champions=champions)
+
+
+def _after_run(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
+    """Let the best designs of a run that is over take part in the common episodes, and give the next turn."""
+    index, champions = state.turn, state.searches[state.turn].champions
+    nominees = Designs(champions.tables[:NOMINEES], champions.structures[:NOMINEES])
+    state = nominated(state, arena, fold(key, COMMON), nominees, budget - state.spent)
+    best, runs = state.best.copy(), state.runs.copy()
+    best[index] = max(best[index], _best_of(state, nominees))
+    runs[index] += 1
+    state = replace(state, best=best, runs=runs)
+    if index + 1 < len(state.searches) and not runs[index + 1]:
+        return replace(state, turn=index + 1)
+    if state.spent < FINISHING * budget:
+        return _with_run(state, arena, key, _leader(best), int(FURTHER_SHARE * budget))
+    return replace(state, turn=len(state.searches), climbs=0)
+
+
+def _leader(best: NDArray[np.float64]) -> int:
+    """Return the search whose best design earns most; of equals the last, as practice needs no difference to begin."""
+    return len(best) - 1 - int(np.argmax(best[::-1]))
+
+
+def _best_of(state: AutoState, designs: Designs) -> float:
+    """Return what the best of some designs earned in the common episodes, as far as they are champions."""
+    rows = {_bytes_of(designs, index) for index in range(len(designs))}
+    champions = Designs(state.champions.tables, state.champions.structures)
+    earned = [
+        float(state.champions.fitness[index])
+        for index in range(len(champions))
+        if _bytes_of(champions, index) in rows
+    ]
+    return max(earned, default=-np.inf)
+
+
+def _bytes_of(designs: Designs, index: int) -> bytes:
+    row: bytes = designs.tables[index].tobytes() + designs.structures[index].tobytes()
+    return row
+
+
+def _with_run(state: AutoState, arena: Arena, key: int, index: int, episodes: int) -> AutoState:
+    """Begin a new run of a search."""
+    planned = state.planned.copy()
+    planned[index] = max(1, episodes)
+    fresh = _methods(state, arena)[index].begin(
+        arena, _run_key(key, index, int(state.runs[index])), int(planned[index])
+    )
+    searches = (*state.searches[:index], fresh, *state.searches[index + 1 :])
+    return replace(state, searches=searches, planned=planned, turn=index)
+
+
+def _climb_round(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
+    if not state.climbing:
+        start = _next_climber(state)
+        left = budget - state.spent
+        if start is None or (state.climbs >= CLIMBS and left > LEAST_SHARE * budget):
+            return _with_run(state, arena, key, _leader(state.best), int(0.6 * left))
+        state = replace(_with_tried(state, start), climb=begin_climb(start), climbing=True)
+    climb = state.climb
+    stream = fold(fold(key, FINISH), word_of(len(state.tried_tables)))
+    after = advance_climb(climb, arena, stream, climb.spent + budget - state.spent)
+    state = replace(state, climb=after, spent=state.spent + after.spent - climb.spent)
+    if after.at_optimum or state.spent >= budget:
+        state = nominated(state, arena, fold(key, COMMON), after.design, budget - state.spent)
+        state = replace(_with_tried(state, after.design), climbs=state.climbs + 1, climbing=False)
+    return state
+
+
+def _next_climber(state: AutoState) -> Designs | None:
+    """Return the best champion from which no climb began and at which none ended."""
+    tried = Designs(state.tried_tables, state.tried_structures)
+    known = {_bytes_of(tried, index) for index in range(len(tried))}
+    champions = Designs(state.champions.tables, state.champions.structures)
+    for index in range(len(champions)):
+        if _bytes_of(champions, index) not in known:
+            return champions[index : index + 1]
+    return None
+
+
+def _with_tried(state: AutoState, design: Designs) -> AutoState:
+    return replace(
+        state,
+        tried_tables=np.concatenate([state.tried_tables, design.tables]),
+        tried_structures=np.concatenate([state.tried_structures, design.structures]),
+    )
+
+
+METHOD = Method("auto", begin, advance)
