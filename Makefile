@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 # The peers have one of their own: numba would import what they need in every process that is measured.
 PEERS := .venv-peers
 
-.PHONY: demo test quick lint unit claims worlds arms fuzz figures bench clean
+.PHONY: demo test quick lint unit claims worlds optimum arms methods fuzz figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -42,6 +42,10 @@ optimum: $(VENV)/.demo
 arms: $(VENV)/.demo
 	$(BIN)/python -m experiments.arms
 	$(BIN)/python -m experiments.abstract_arms
+
+# Hours with all seeds: make methods OPTIONS=--small takes minutes.
+methods: $(VENV)/.demo
+	$(BIN)/python -m experiments.methods $(OPTIONS)
 
 # Damaged and heavy specs: fuzzing/.
 fuzz: $(VENV)/.demo
