@@ -10,7 +10,9 @@ import numpy as np
 
 import bbsd
 from bbsd.kernel.keys import keys
+from bbsd.solver.credit import credit_backwards, learn_values, perturbed_tables, rates_between
 from bbsd.solver.culture import Culture, draw_memes
+from bbsd.solver.draws import marks
 from bbsd.solver.estimates import update_values
 from bbsd.solver.genetics import OPEN_CELL, expected_fitness, next_pool, random_pool
 from bbsd.solver.methods.distribution import draw_choices, draw_hands
@@ -64,6 +66,22 @@ def designs_drawn(key):
     return [cells, hands, children]
 
 
+def choices_practiced(key):
+    rng, streams, n_pairs = np.random.default_rng(1), keys(key, 0, 5), 6
+    asked = rng.integers(-3, 2 * n_pairs, (7, 2, 2, 4)).astype(np.int32)
+    joint_cells = rng.integers(0, 3, (7, 2, 4)).astype(np.int32)
+    credit, weight, sums, counts = np.zeros((4, n_pairs))
+    critic, visits = np.zeros((2, 3))
+    credit_backwards(
+        asked, joint_cells, rng.normal(size=(7, 2, 4)), np.array([7.0, 3.0, 5.0]), critic, visits, sums, counts,
+        0.9, 0.6,
+    )  # fmt: skip
+    size = learn_values(credit, weight, sums, counts)
+    given_cells, first_pairs = np.array([OPEN_CELL, 1, OPEN_CELL], np.uint8), np.array([0, 3, 5, 6])
+    tables = perturbed_tables(credit, weight, first_pairs, given_cells, size, streams, marks(n_pairs))
+    return [critic, visits, credit, weight, tables, rates_between(0.01, 0.5, streams)]
+
+
 def everything():
     """Results of all compiled functions, floats as hexadecimal digits."""
     culture = Culture(np.array([[0, 1], [1, 0], [2, 0]]), np.array([-5.0, -1.0, 5.0]))
@@ -72,6 +90,7 @@ def everything():
         results += [
             *pools_bred(key),
             *designs_drawn(key),
+            *choices_practiced(key),
             members(key, [np.zeros(4), np.zeros(3)], 10),
             draw_memes(key, culture, 10, 0.7),
         ]
