@@ -15,6 +15,7 @@ from bbsd.kernel.jit import jit
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import chance, fold, name_word, word_of
 from bbsd.solver.champions import no_champions
+from bbsd.solver.methods.founding import SHARE, best_random
 from bbsd.solver.methods.method import Method, SearchState
 from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
 from bbsd.solver.sharing import lifetime_fitness
@@ -70,10 +71,13 @@ def begin(arena: Arena, key: int, budget: int) -> JointState:
 def advance(state: JointState, arena: Arena, key: int, budget: int) -> JointState:
     """Breed some generations and nominate the best designs of the last."""
     stream, left = fold(fold(key, GENERATIONS), word_of(state.round)), budget - state.spent
+    tried = int(SHARE * state.planned) // EPISODES
+    if state.round == 0 and len(state.population) <= tried <= left // EPISODES:
+        return founded(state, arena, key, tried, left)
     cost = len(state.population) * EPISODES
     generations = min(int(ROUND_SHARE * state.planned) // cost or 1, left // cost)
     if not generations:
-        return with_rest_spent(state, arena, key, left)
+        return with_rest_spent(replace(state, round=state.round + 1), arena, key, left)
     population = state.population
     for generation in range(generations):
         own = fold(stream, word_of(generation))
@@ -83,6 +87,14 @@ def advance(state: JointState, arena: Arena, key: int, budget: int) -> JointStat
     spent = state.spent + generations * cost
     state = replace(state, round=state.round + 1, spent=spent, population=population)
     return nominated(state, arena, key, ranked[:NOMINATED], budget - spent)
+
+
+def founded(state: JointState, arena: Arena, key: int, count: int, left: int) -> JointState:
+    """Make the best of so many random designs the population."""
+    size, spent = len(state.population), count * EPISODES
+    population, _ = best_random(arena, fold(key, FOUNDED), count, EPISODES, size)
+    state = replace(state, round=1, spent=state.spent + spent, population=population)
+    return nominated(state, arena, key, population[:NOMINATED], left - spent)
 
 
 def next_population(ranked: Designs, space: Space, key: int) -> Designs:

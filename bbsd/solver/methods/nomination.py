@@ -8,11 +8,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
+
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.methods.method import SearchState, with_champions
 from bbsd.solver.space import Designs
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from bbsd.solver.arena import Arena
 
 NOMINATION, VARIATION = name_word("nomination"), name_word("variation")
@@ -43,6 +47,15 @@ def nominated(state: State, arena: Arena, key: int, designs: Designs, left: int)
     means = arena.means(new, fold(key, NOMINATION), EPISODES)
     champions = with_champions(state.champions, new, means)
     return replace(state, champions=champions, spent=state.spent + len(new) * EPISODES)
+
+
+def nominated_means(state: SearchState, designs: Designs) -> NDArray[np.float64]:
+    """Return the mean of each design that is a champion, -inf for another, (n_designs,)."""
+    champions = state.champions
+    same = (designs.tables[:, None] == champions.tables).all(axis=2)
+    same &= (designs.structures[:, None] == champions.structures).all(axis=2)
+    means: NDArray[np.float64] = np.where(same, champions.fitness, -np.inf).max(axis=1, initial=-np.inf)
+    return means
 
 
 def with_rest_spent(state: State, arena: Arena, key: int, left: int) -> State:

@@ -1,13 +1,14 @@
 """A society of agents, the paper's loop (Fig. 4) repaired: how it gets from one generation to the next.
 
 Agents live a few episodes, the same for all. They inherit memes, now and then changed, instead of learning structures
-anew in each lifetime. Fitness is shared leniently. Half of the agents are the leader, which is the best agent of the
-generation before, with one module exchanged: what these earn is the fitness of that module alone.
+anew in each lifetime. Fitness is shared leniently. Some of the agents are the leader with one module exchanged: what
+these earn is the fitness of that module alone. Who earned most is a challenger; it leads when it earns at least as much
+as the leader in the next generation's episodes too, for which it was not chosen.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.design import CultureSettings
 from bbsd.solver.culture import Culture, draw_memes, empty_culture, take_in
 from bbsd.solver.genetics import Breeding, next_pool
+from bbsd.solver.methods.founding import best_random
 from bbsd.solver.pairing import members
 from bbsd.solver.sharing import lenient, lifetime_fitness
 from bbsd.solver.space import Designs
@@ -29,9 +31,8 @@ if TYPE_CHECKING:
     from bbsd.solver.arena import Arena
     from bbsd.solver.space import Space
 
-POOLS, ORDERS, PAIRING, EXCHANGES, MEMES, CHANGES, LIFETIMES, BREEDING = (
-    name_word(name)
-    for name in ("pools", "orders", "pairing", "exchanges", "memes", "changes", "lives", "breeding")
+ORDERS, PAIRING, EXCHANGES, MEMES, CHANGES, LIFETIMES, BREEDING = (
+    name_word(name) for name in ("orders", "pairing", "exchanges", "memes", "changes", "lives", "breeding")
 )
 
 BEST_AGENTS = 3
@@ -46,10 +47,19 @@ GENETICS = Breeding(tournament=3, elites=1, crossover=0.5, children=1, hard_muta
 
 
 class Size(NamedTuple):
-    """How many individuals each pool of a society has, and how many agents beside the leader a generation."""
+    """How large a society is."""
 
     population: int
-    agents: int
+    """Individuals in each pool."""
+    paired: int
+    """Agents of a generation whose individuals are paired at random."""
+    exchanged: int
+    """Agents of a generation that are the leader with one module exchanged."""
+
+    @property
+    def agents(self) -> int:
+        """All agents of a generation, with the leader and the challenger."""
+        return 2 + self.paired + self.exchanged
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,18 +70,28 @@ class Society:
     """The tables of all behaviors' individuals, (population, n_cells)."""
     culture: Culture
     leader: Designs
-    """The best agent of the last generation, one row."""
+    """The agent whose modules others are tried with, one row."""
+    challenger: Designs
+    """The best other agent of the last generation, one row."""
 
 
-def first_society(space: Space, key: int, population: int) -> Society:
-    """Return a society of random individuals; its leader is a random agent."""
-    pools = space.random(fold(key, POOLS), population).tables
-    leader = Designs(pools[:1], space.random_orders(fold(key, ORDERS), 1))
-    return Society(pools, empty_culture(leader.structures.shape[1]), leader)
+def society_of(agents: Designs) -> Society:
+    """Return a society of the modules of some agents, at least two, without a culture yet."""
+    return Society(agents.tables, empty_culture(agents.structures.shape[1]), agents[:1], agents[1:2])
+
+
+def first_society(arena: Arena, key: int, population: int, count: int, episodes: int) -> Society:
+    """Return a society of the best of `count` random agents: their modules, and their structures as memes.
+
+    It spends count * episodes episodes; count is at least the population, and that at least 2.
+    """
+    best, fitness = best_random(arena, key, count, episodes, population)
+    society = society_of(best)
+    return replace(society, culture=take_in(society.culture, best.structures, fitness, CULTURE))
 
 
 def next_societies(
-    societies: Sequence[Society], arena: Arena, key: int, n_agents: int, episodes: int
+    societies: Sequence[Society], arena: Arena, key: int, size: Size, episodes: int
 ) -> tuple[tuple[Society, ...], NDArray[np.float64]]:
     """Take societies of the same size one generation further, side by side in the same episodes.
 
@@ -79,19 +99,19 @@ def next_societies(
         societies: at least one.
         arena: where the agents live.
         key: the generation's.
-        n_agents: of each society, beside its leader.
+        size: of each society.
         episodes: of a lifetime.
 
     Returns:
-        The societies, and the agents' returns (n_societies, 1 + n_agents, episodes), each leader's first.
+        The societies, and the agents' returns (n_societies, n_agents, episodes), each leader's and challenger's first.
     """
     streams = [fold(key, word_of(index)) for index in range(len(societies))]
     teams = [
-        agents_of_society(society, arena.space, stream, n_agents)
+        agents_of_society(society, arena.space, stream, size)
         for society, stream in zip(societies, streams, strict=True)
     ]
     returns = arena.agents_returns(side_by_side(teams), fold(key, LIFETIMES), episodes)
-    returns = returns.reshape(len(societies), 1 + n_agents, episodes)
+    returns = returns.reshape(len(societies), size.agents, episodes)
     after = tuple(
         next_society(society, team, lifetime_fitness(earned), arena.space, fold(stream, BREEDING))
         for society, team, earned, stream in zip(societies, teams, returns, streams, strict=True)
@@ -99,33 +119,30 @@ def next_societies(
     return after, returns
 
 
-def agents_of_society(society: Society, space: Space, key: int, n_agents: int) -> Agents:
-    """Return the leader, agents of individuals that are paired at random, and leaders with a module exchanged.
+def agents_of_society(society: Society, space: Space, key: int, size: Size) -> Agents:
+    """Return the leader, the challenger, agents paired at random, and leaders with one module exchanged.
 
-    In each pool the leader's module stands behind the individuals.
+    In each pool the leader's and the challenger's modules stand behind the individuals.
     """
-    population, leaders = len(society.pools), society.leader
-    n_exchanged = n_agents // 2
-    pools = space.by_behavior(np.concatenate([society.pools, leaders.tables]))
+    population, known = len(society.pools), society.leader.joined(society.challenger)
+    pools = space.by_behavior(np.concatenate([society.pools, known.tables]))
     anyone = [np.zeros(population)] * len(pools)
-    paired = members(fold(key, PAIRING), anyone, n_agents - n_exchanged)
-    exchanged = np.full((1 + n_exchanged, len(pools)), population)
+    paired = members(fold(key, PAIRING), anyone, size.paired)
+    exchanged = np.full((size.exchanged, len(pools)), population)
     evolving = np.flatnonzero([space.problem.evolves(index) for index in range(len(pools))])
-    if n_exchanged and len(evolving):
-        dealt = members(fold(key, EXCHANGES), anyone, -(-n_exchanged // len(evolving)))[:, evolving]
-        agents, behaviors = np.arange(1, 1 + n_exchanged), np.resize(evolving, n_exchanged)
-        exchanged[agents, behaviors] = dealt.ravel()[:n_exchanged]
-    memes = leaders.structures[np.zeros(n_agents, np.int64)]
+    if len(evolving):
+        dealt = members(fold(key, EXCHANGES), anyone, -(-size.exchanged // len(evolving)))[:, evolving]
+        behaviors = np.resize(evolving, size.exchanged)
+        exchanged[np.arange(size.exchanged), behaviors] = dealt.ravel()[: size.exchanged]
     if len(society.culture):
-        inherited = draw_memes(fold(key, MEMES), society.culture, len(paired), CULTURE.scaled)
+        inherited = draw_memes(fold(key, MEMES), society.culture, size.paired, CULTURE.scaled)
     else:
-        inherited = space.random_orders(fold(key, ORDERS), len(paired))
-    memes[: len(paired)] = inherited
-    structures = space.reordered(fold(key, CHANGES), memes, MEME_MUTATION)
+        inherited = space.random_orders(fold(key, ORDERS), size.paired)
+    orders = np.concatenate([inherited, np.repeat(society.leader.structures, size.exchanged, axis=0)])
     return Agents(
         pools,
-        np.concatenate([exchanged[:1], paired, exchanged[1:]]),
-        np.concatenate([leaders.structures, structures]),
+        np.concatenate([np.full((1, len(pools)), population + own) for own in (0, 1)] + [paired, exchanged]),
+        np.concatenate([known.structures, space.reordered(fold(key, CHANGES), orders, MEME_MUTATION)]),
     )
 
 
@@ -144,8 +161,9 @@ def next_society(
 ) -> Society:
     """Share the agents' fitness (n_agents,), take their structures into the culture, and breed the pools."""
     population = len(society.pools)
-    shared = lenient(fitness, agents.members, population + 1, BEST_AGENTS)[:, :population]
-    best = agents.architecture(int(np.argmax(fitness)))
+    shared = lenient(fitness, agents.members, population + 2, BEST_AGENTS)[:, :population]
+    leader = agents.architecture(int(fitness[1] >= fitness[0]))
+    challenger = agents.architecture(2 + int(np.argmax(fitness[2:])))
     pools = []
     for index, (pool, table) in enumerate(zip(agents.pools, space.problem.tables, strict=True)):
         children = pool[:population]
@@ -153,10 +171,12 @@ def next_society(
             genetics = GENETICS._replace(soft_mutation=1.0 / table.n_open)
             stream = fold(key, word_of(index))
             children = next_pool(stream, children, shared[index], table.n_actions, table.given, genetics)
-            children[LEADERS_MODULE] = best.tables[index]
+            children[LEADERS_MODULE] = leader.tables[index]
         pools.append(children)
     culture = take_in(society.culture, agents.structures, fitness, CULTURE)
-    return Society(np.concatenate(pools, axis=1), culture, space.designs([best]))
+    return Society(
+        np.concatenate(pools, axis=1), culture, space.designs([leader]), space.designs([challenger])
+    )
 
 
 def composed(society: Society) -> Designs:

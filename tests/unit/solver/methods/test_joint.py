@@ -3,8 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bbsd.solver.arena import Arena
 from bbsd.solver.methods import joint
-from bbsd.solver.methods.joint import crossed_orders, next_population
+from bbsd.solver.methods.joint import METHOD, crossed_orders, next_population
 from bbsd.solver.space import Space
 from tests.unit.solver.problems import guess
 
@@ -63,3 +64,15 @@ def test_one_cell_in_n_mutates(space):
     after = next_population(same, space, 9)
     changed = (after.tables[100:] != ranked.tables).sum(axis=1).mean()
     assert abs(changed - 2 / 3) < 0.1  # one of three draws is the choice that was there
+
+
+def test_the_first_population_is_the_best_of_many_random_designs():
+    arena = Arena(guess()[0], 1)
+    state = METHOD.begin(arena, 3, 10_000)
+    founded = METHOD.advance(state, arena, 3, 10_000)
+    assert founded.spent >= 1000
+    assert len(founded.population) == len(state.population)
+    before, after = (
+        arena.means(population, 1, 50).mean() for population in (state.population, founded.population)
+    )
+    assert after > before + 0.2

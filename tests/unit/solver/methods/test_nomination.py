@@ -3,7 +3,14 @@ import numpy as np
 from bbsd.solver.arena import Arena
 from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.method import SearchState
-from bbsd.solver.methods.nomination import CAPACITY, EPISODES, NOMINATION, nominated, with_rest_spent
+from bbsd.solver.methods.nomination import (
+    CAPACITY,
+    EPISODES,
+    NOMINATION,
+    nominated,
+    nominated_means,
+    with_rest_spent,
+)
 from bbsd.solver.space import fold
 from tests.unit.solver.problems import guess
 
@@ -42,6 +49,15 @@ def test_the_first_are_nominated_when_few_episodes_are_left():
     state = nominated(state, arena, KEY, designs, 3 * EPISODES - 1)
     assert state.spent == 2 * EPISODES
     assert {row.tobytes() for row in state.champions.tables} == {row.tobytes() for row in designs.tables[:2]}
+
+
+def test_means_of_champions_are_known_and_those_of_others_are_not():
+    state, arena = nothing_yet()
+    designs = arena.space.random(1, 4)
+    assert (nominated_means(state, designs) == -np.inf).all()
+    state = nominated(state, arena, KEY, designs[:3], 1000)
+    means = arena.means(designs, fold(KEY, NOMINATION), EPISODES)
+    np.testing.assert_array_equal(nominated_means(state, designs), [*means[:3], -np.inf])
 
 
 def test_a_rest_that_is_too_short_to_compare_changes_no_champions():

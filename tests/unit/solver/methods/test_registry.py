@@ -79,9 +79,11 @@ def test_a_search_spends_its_budget_to_the_last_episode_and_counts_them(method, 
 def test_a_round_is_a_small_part_of_the_budget(method):
     place, budget = arena(), 100_000
     state = method.begin(place, 7, budget)
-    for _ in range(3):
+    for number in range(4):
         before, state = state, method.advance(state, place, 7, budget)
-        assert state.spent - before.spent <= budget * 0.06
+        assert state.spent - before.spent <= budget * (
+            0.06 if number else 0.11
+        )  # the first may found a population
 
 
 def test_a_state_written_down_continues_as_if_it_had_not_been(method):
