@@ -113,9 +113,11 @@ class Folder:
         return result if isinstance(result, dict) else {}
 
     def budgets(self) -> tuple[int, ...]:
-        """Return the budgets that `run.json` holds."""
-        budgets = self.read_run_file().get("budgets")
-        return tuple(map(int, budgets)) if isinstance(budgets, list) else ()
+        """Return the budgets that `run.json` holds. Raises FolderError where they are none."""
+        budgets = self.read_run_file().get("budgets", [])
+        if not isinstance(budgets, list) or not all(type(each) is int and each > 0 for each in budgets):
+            raise FolderError(f"the budgets in {self.run_file} are damaged; remove the folder to start again")
+        return tuple(budgets)
 
     def lines(self) -> list[dict[str, Any]]:
         """Return the metrics of all generations. Raises FolderError for a damaged file."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import platform
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
     from bbsd.runs.folder import Folder
 
+HELD = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES)
+"""The reasons of a refusal when another process has the lock."""
 MOST_BYTES = 1000
 """Bytes of the file that are read: it names one process."""
 
@@ -56,8 +59,8 @@ def _locked(descriptor: int) -> bool:
         return True
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
+    except OSError as error:
+        return error.errno not in HELD  # a file system without locks has nobody who holds one
     return True
 
 

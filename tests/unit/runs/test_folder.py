@@ -158,6 +158,14 @@ def test_a_folder_of_an_older_format_is_told_from_another_run(folder):
         folder_to_resume(folder.path, "lift", WHO)
 
 
+@pytest.mark.parametrize("budgets", [3, ["a"], [-1], [True], {"a": 1}], ids=str)
+def test_budgets_that_are_none_are_an_error_that_says_what_to_do(folder, budgets):
+    folder.write_run_file(WHO)
+    rewrite(folder, budgets=budgets)
+    with pytest.raises(FolderError, match=r"budgets in .* are damaged; remove the folder"):
+        folder.budgets()
+
+
 def rewrite(folder, **changed):
     """Write other things into a folder's `run.json`; None removes them."""
     content = json.loads(folder.run_file.read_text()) | changed
