@@ -39,7 +39,7 @@ FEW, FEW_OPENINGS = (
     ((random_search.METHOD, 0.05), (cross_entropy.METHOD, 0.25), (q_learning.METHOD, 0.25)),
 )
 """With a budget below that, those that need the fewest episodes."""
-FURTHER_SHARE = 0.31
+FURTHER_SHARE = 0.155
 """Of the budget, what a further run of the leading search gets."""
 FINISHING = 0.72
 """Share of the budget after which no further run is begun before the best designs have climbed."""
