@@ -51,6 +51,7 @@ from bbsd.runs.price import price as price_of
 from bbsd.runs.rivals import Rival, each_run, paper_episodes, rival, spent
 from bbsd.runs.searching import ANSWER
 from bbsd.runs.signals import interrupts_request_stop
+from bbsd.runs.visits import Unvisited, unvisited
 from bbsd.solver.budget import automatic_budget
 from bbsd.solver.judgement import RANDOM_EPISODES, Selection, judge
 from bbsd.solver.random_agents import random_agents
@@ -194,6 +195,8 @@ class Designed:
     """What other methods achieved with the same budget."""
     first_reward: int | None
     """Where all random agents earn the same: the episodes after which the search had a better design."""
+    unvisited: tuple[Unvisited, ...]
+    """Behaviors that have open cells which no candidate's episodes visited."""
 
     @property
     def mean(self) -> float:
@@ -415,6 +418,7 @@ def design(
         with _interruptible(command, loaded, overdue, keep_best=True):
             answers = complete_runs(command, jobs, listener, ready)
             judged = judge(answers, problem, settings, seed)
+            missed = unvisited(command)
         folder.gather(runs)
         text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
         folder.write_architecture(text)
@@ -441,6 +445,7 @@ def design(
         each_run(command, answers) if runs > 1 else (),
         others,
         _first_reward(folder, judged.selection),
+        missed,
     )
 
 

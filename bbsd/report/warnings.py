@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 def warnings_of(designed: Designed) -> list[str]:
     """Return the warnings about a design, one sentence or two each."""
     warnings = [_selection(designed), disagreement([returns for returns, _ in designed.each])]
+    warnings += [_unvisited(designed)]
     warnings += [f"rival {rival.method}: {rival.reason}" for rival in designed.rivals if rival.reason]
     return [warning for warning in warnings if warning]
 
@@ -32,6 +33,15 @@ def _selection(designed: Designed) -> str:
     if designed.first_reward is not None:
         text += f"; a better design was there in episode {designed.first_reward:,}"
     return text
+
+
+def _unvisited(designed: Designed) -> str:
+    """Return which cells no candidate's episodes visited, or ""."""
+    if not designed.unvisited:
+        return ""
+    cells = ", ".join(f"{each.cells:,} of {each.of:,} of {each.behavior}" for each in designed.unvisited)
+    episodes = count(designed.unvisited[0].episodes, "episode")
+    return f"cells that no candidate visited in {episodes}, where any choice is as good: {cells}"
 
 
 def disagreement(returns: Sequence[Interval]) -> str:

@@ -45,7 +45,7 @@ def best_so_far(command: Command) -> Interim | None:
     """
     arena = Arena(command.problem, command.settings.coevolution.generations)
     saved = [command.reached(run) for run in range(command.n_runs)]
-    designs = [candidates for reached in saved if reached for candidates in _candidates(reached, arena)]
+    designs = [group for reached in saved if reached for group in candidates(reached, arena)]
     if not sum(map(len, designs)):
         return None
     entrants = designs[0].joined(*designs[1:])
@@ -63,7 +63,7 @@ def best_so_far(command: Command) -> Interim | None:
     return Interim(winner, mean(earned[best]), earned.shape[1])
 
 
-def _candidates(reached: RunState, arena: Arena) -> list[Designs]:
+def candidates(reached: RunState, arena: Arena) -> list[Designs]:
     """Return the answer of a run, the best that was measured, and its champions."""
     state = reached.state
     champions = state.search.champions if isinstance(state, Searching) else state.champions

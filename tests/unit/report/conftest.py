@@ -42,6 +42,7 @@ def designed(evaluation):
         each=(),
         rivals=(),
         first_reward=None,
+        unvisited=(),
     )
 
 

@@ -2,6 +2,7 @@ from dataclasses import replace
 
 from bbsd.evaluation import Interval
 from bbsd.report.warnings import disagreement, warnings_of
+from bbsd.runs.visits import Unvisited
 from bbsd.solver.judgement import Selection
 
 
@@ -22,6 +23,13 @@ def test_agents_that_all_earn_the_same_leave_nothing_to_select_by(designed):
         "1,000 random agents in 10,000 episodes all earned -200.00, and never goal: "
         "there is nothing to select by; a better design was there in episode 31,000"
     )
+
+
+def test_cells_that_no_candidate_visited_are_told(designed):
+    missed = (Unvisited("go", 3, 6, 1000), Unvisited("stop", 1, 2, 1000))
+    assert warnings_of(replace(designed, unvisited=missed)) == [
+        "cells that no candidate visited in 1,000 episodes, where any choice is as good: 3 of 6 of go, 1 of 2 of stop"
+    ]
 
 
 def test_runs_disagree_where_their_intervals_lie_apart():
