@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.evaluation.sums import mean as mean_of
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
@@ -45,6 +46,8 @@ EVERY = 10
 DISCOUNT, MIXING = 0.99, 0.6
 RATES = 0.1, 1.0
 """The lowest and the highest rate of straying: many strays show what else there is, few what comes of the tables."""
+BEST_PART, PROMISE_STEP = 4, 0.2
+"""One part in so many of a round's episodes says what an order promises; how far a round moves that."""
 NOISE_SIZE = 1.2
 """Noise of a choice that was never tried, in units of the mean size of credits."""
 
@@ -66,6 +69,8 @@ class Pupil:
     size: float = 1.0
     """The mean size of credits in the latest round."""
     rounds: int = 0
+    promise: float = -np.inf
+    """What the best part of its exploring episodes earned in the latest rounds."""
     standing: float = -np.inf
     """The mean return of the best tables when they were last measured."""
 
@@ -143,10 +148,13 @@ def _with(pupils: tuple[Pupil, ...], which: int, pupil: Pupil) -> tuple[Pupil, .
 
 
 def _dropped(state: PracticeState, kept: int) -> PracticeState:
-    """Return the state with so many of the orders that stand best."""
-    standings = np.array([state.pupils[index].standing for index in state.running])
-    best = np.argsort(-standings, kind="stable")[:kept]
-    return replace(state, running=np.sort(state.running[best]), round=state.round + 1)
+    """Return the state with so many of the orders: half of them stand best, the others promise most."""
+    pupils = [state.pupils[index] for index in state.running]
+    standing = np.argsort([-pupil.standing for pupil in pupils], kind="stable").tolist()
+    promising = np.argsort([-pupil.promise for pupil in pupils], kind="stable").tolist()
+    best = standing[: -(-kept // 2)]
+    best += [index for index in promising if index not in best][: kept - len(best)]
+    return replace(state, running=state.running[sorted(best)], round=state.round + 1)
 
 
 def practiced(pupil: Pupil, arena: Arena, stream: int, count: int) -> Pupil:
@@ -173,9 +181,12 @@ def practiced(pupil: Pupil, arena: Arena, stream: int, count: int) -> Pupil:
         )  # fmt: skip
 
     rates = rates_between(*RATES, keys(fold(stream, STRAYING), 0, count))
-    arena.practice(designs, fold(stream, EPISODE), rates, learn)
+    returns = arena.practice(designs, fold(stream, EPISODE), rates, learn)
     size = learn_values(pupil.credit, pupil.weight, sums, counts)
-    return replace(pupil, size=size, rounds=pupil.rounds + 1)
+    promise = mean_of(np.sort(returns)[-max(1, count // BEST_PART) :])
+    if pupil.rounds:
+        promise = pupil.promise + (promise - pupil.promise) * PROMISE_STEP
+    return replace(pupil, size=size, rounds=pupil.rounds + 1, promise=promise)
 
 
 def greedy(pupil: Pupil, arena: Arena) -> Designs:
