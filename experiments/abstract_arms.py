@@ -82,10 +82,9 @@ def claim_lines(arms: dict[str, Floats]) -> list[str]:
         above_line("A2: and is behind the learned ones in the last", at(learned, last), at(fixed, last), 3),
         above_line("A2: where culture is above none", at(cultured, last), at(learned, last), 3),
         near_line("A4: value-based: the order given comes close to +1", value_fixed),
-        above_line("A4: learners are below it", at(value_fixed, last), at(value, last), 3),
-        above_line(
-            "A4: with culture they are above those without", at(value_cultured, last), at(value, last), 3
-        ),
+        near_line("A4: learners do so too", np.minimum(value, value_cultured)),
+        above_line("A4: in generation 20 they are below it", at(value_fixed, 20), at(value, 20), 3),
+        above_line("A4: and with culture above those without", at(value_cultured, 20), at(value, 20), 3),
     ]
 
 
