@@ -22,6 +22,6 @@ def test_options_that_pages_name_exist():
     tool = get_command(app)
     commands = [tool, *tool.commands.values()]
     known = {option for command in commands for each in command.params for option in each.opts} | {"--help"}
-    source = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "experiments").glob("*.py"))
+    source = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "experiments").rglob("*.py"))
     known |= set(re.findall(r'"(--[a-z][a-z-]+)"', source))
     assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", TEXT)) - {"--update-golden"} <= known
