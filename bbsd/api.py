@@ -41,21 +41,21 @@ from bbsd.language.loading import load as load_source
 from bbsd.language.meaning import seed_key
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
-from bbsd.runs.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
-from bbsd.runs.identity import Identity, identity
 from bbsd.runs.interim import best_so_far
-from bbsd.runs.lock import only_writer
 from bbsd.runs.pace import budget_of
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
 from bbsd.runs.rivals import Rival, each_run, paper_episodes, rival, spent
 from bbsd.runs.searching import ANSWER
 from bbsd.runs.signals import interrupts_request_stop
+from bbsd.runs.storage.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
+from bbsd.runs.storage.identity import Identity, identity
+from bbsd.runs.storage.lock import only_writer
 from bbsd.runs.visits import Unvisited, unvisited
 from bbsd.solver.budget import automatic_budget
 from bbsd.solver.judgement import RANDOM_EPISODES, Selection, judge
+from bbsd.solver.paper.settings import settings_of
 from bbsd.solver.random_agents import random_agents
-from bbsd.solver.settings import settings_of
 from bbsd.stopping import stop_request_of_context
 from bbsd.text import Source
 
@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
     from bbsd.runs.processes import Processes
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 EVALUATION = name_word("evaluation")
 EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES

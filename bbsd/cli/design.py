@@ -114,7 +114,7 @@ def design(
     set_by_budget, within = read_budget(budget)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
     if spec.is_dir():
-        from bbsd.runs.folder import Folder
+        from bbsd.runs.storage.folder import Folder
 
         # The folder of a design names its spec, its seed and its settings.
         former = Folder(spec).design()
@@ -250,7 +250,7 @@ def _resume_command(folder: Path) -> str:
 
 def _draw_curves(designed: "Designed") -> None:
     """Draw the metrics into their folder, after the result is shown: matplotlib takes longer than a small design."""
-    from bbsd.runs.folder import Folder
+    from bbsd.runs.storage.folder import Folder
 
     draw_curves(Folder(designed.folder).lines(), designed.folder / CURVES)
 

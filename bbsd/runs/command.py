@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from bbsd.runs.census import tables
-from bbsd.runs.records import Journal
 from bbsd.runs.run import generations, run_key, start
 from bbsd.runs.searching import Course
-from bbsd.runs.state import RunState, Searching, restored_run, run_arrays
+from bbsd.runs.storage.census import tables
+from bbsd.runs.storage.records import Journal
+from bbsd.runs.storage.state import RunState, Searching, restored_run, run_arrays
 from bbsd.solver.search import RACE_SHARE
 
 if TYPE_CHECKING:
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
-    from bbsd.runs.census import Table
-    from bbsd.runs.folder import Folder
-    from bbsd.runs.identity import Identity
-    from bbsd.runs.records import Records
-    from bbsd.solver.settings import Settings
+    from bbsd.runs.storage.census import Table
+    from bbsd.runs.storage.folder import Folder
+    from bbsd.runs.storage.identity import Identity
+    from bbsd.runs.storage.records import Records
+    from bbsd.solver.paper.settings import Settings
 
     Listener = Callable[[dict[str, Any]], None]
     """Called with each line of metrics."""

@@ -10,7 +10,7 @@ import numpy as np
 from bbsd.evaluation.sums import mean
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
-from bbsd.runs.state import Searching
+from bbsd.runs.storage.state import Searching
 from bbsd.solver.answer import distinct
 from bbsd.solver.arena import Arena
 from bbsd.solver.race import still_running
@@ -19,7 +19,7 @@ from bbsd.solver.space import Designs
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.runs.command import Command
-    from bbsd.runs.state import RunState
+    from bbsd.runs.storage.state import RunState
 
 INTERIM = name_word("interim race")
 CHAMPIONS = 20

@@ -11,7 +11,7 @@ from bbsd.solver.arena import Arena
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 PACE = name_word("pace")
 DESIGNS = 200

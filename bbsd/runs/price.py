@@ -20,7 +20,7 @@ from bbsd.solver.race import FIRST_ROUND
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 SAMPLE = name_word("sample")
 RACED = 2 * FIRST_ROUND

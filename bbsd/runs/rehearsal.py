@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from bbsd.evaluation import RewardNotFinite
 from bbsd.kernel.streams import name_word
 from bbsd.runs.searching import Course
-from bbsd.solver.generation import initial_state, next_generation
+from bbsd.solver.paper.generation import initial_state, next_generation
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 REHEARSAL = name_word("rehearsal")
 AGENTS = 2

@@ -11,13 +11,13 @@ from bbsd.language.lineage import overlay
 from bbsd.language.meaning import elaborate
 from bbsd.language.validation import validate
 from bbsd.runs.answers import complete_runs
-from bbsd.runs.folder import Folder
 from bbsd.runs.searching import UnsuitableMethod
-from bbsd.runs.state import Searching
+from bbsd.runs.storage.folder import Folder
+from bbsd.runs.storage.state import Searching
 from bbsd.solver.judgement import best_of, fresh_returns
 from bbsd.solver.methods.registry import METHODS
+from bbsd.solver.paper.settings import settings_of
 from bbsd.solver.search import search_budget
-from bbsd.solver.settings import settings_of
 
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Interval
     from bbsd.language.loading import Loaded
     from bbsd.runs.command import Command, Listener
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 PAPER = "paper"
 

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.meaning import seed_key
-from bbsd.runs import metrics
-from bbsd.runs.state import RunState
+from bbsd.runs.storage import metrics
+from bbsd.runs.storage.state import RunState
 from bbsd.solver.answer import answer
-from bbsd.solver.generation import State, initial_state, next_generation
+from bbsd.solver.paper.generation import State, initial_state, next_generation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bbsd.compiler import Problem
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 RUNS = name_word("runs")
 

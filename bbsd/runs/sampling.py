@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from bbsd.evaluation import detailed_outcomes
 from bbsd.kernel.keys import keys
-from bbsd.runs import metrics
 from bbsd.runs.rehearsal import rehearse
 from bbsd.runs.searching import Course
-from bbsd.runs.state import RunState, run_arrays
-from bbsd.solver.generation import initial_state, next_generation
+from bbsd.runs.storage import metrics
+from bbsd.runs.storage.state import RunState, run_arrays
+from bbsd.solver.paper.generation import initial_state, next_generation
 from bbsd.solver.random_agents import random_agents
 from bbsd.solver.search import search_budget
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bbsd.compiler import Problem
-    from bbsd.solver.generation import State
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.generation import State
+    from bbsd.solver.paper.settings import Settings
 
 SHORT, LONG = 1, 3
 """Episodes of sampled lifetimes. No structure is searched for before the first."""

@@ -16,7 +16,7 @@ import numpy as np
 from bbsd.errors import UsageError
 from bbsd.evaluation.sums import deviation, mean, row_means
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.runs.state import RunState, Searching
+from bbsd.runs.storage.state import RunState, Searching
 from bbsd.solver.arena import Arena
 from bbsd.solver.methods.q_learning import TooManyJointCells
 from bbsd.solver.methods.registry import METHODS
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.solver.methods.method import Method
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
     Line = dict[str, Any]
     """A record of `metrics.jsonl`."""

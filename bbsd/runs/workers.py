@@ -11,9 +11,9 @@ from contextlib import contextmanager, nullcontext, suppress
 from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
-from bbsd.runs.following import Follower
 from bbsd.runs.processes import Processes, waiting_processes
 from bbsd.runs.rehearsal import rehearse
+from bbsd.runs.storage.following import Follower
 from bbsd.stopping import StopRequest, current_stop_request, raise_if_stopped
 
 if TYPE_CHECKING:

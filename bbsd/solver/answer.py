@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bbsd.compiler import Problem
-    from bbsd.solver.generation import State
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.generation import State
+    from bbsd.solver.paper.settings import Settings
 
 RACE = name_word("race")
 

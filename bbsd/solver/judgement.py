@@ -21,7 +21,7 @@ from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 from bbsd.solver.answer import distinct
-from bbsd.solver.lifetime import run_lifetimes
+from bbsd.solver.paper.lifetime import run_lifetimes
 from bbsd.solver.race import race
 from bbsd.solver.random_agents import random_agents
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
 
 BEST, JUDGED, RANDOM, LIFETIMES = (name_word(name) for name in ("best", "judged", "random", "lifetimes"))
 

@@ -9,7 +9,7 @@ import numpy as np
 from bbsd.evaluation import Agents
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.solver.genetics import random_pool
+from bbsd.solver.paper.genetics import random_pool
 from bbsd.solver.structures import random_structures
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.kernel.keys import keys
-from bbsd.solver.lifetime import run_lifetimes
-from bbsd.solver.settings import settings_of
+from bbsd.solver.paper.lifetime import run_lifetimes
+from bbsd.solver.paper.settings import settings_of
 from benchmarks.report import Goal, Section, table
 from benchmarks.timing import CORES, Floats, all_cores, alternating_times
 from benchmarks.workloads.generated import POPULATION, Shape, compiled, repeated_agents, spec_text

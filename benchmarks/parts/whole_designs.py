@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import bbsd
-from bbsd.solver.settings import settings_of
+from bbsd.solver.paper.settings import settings_of
 from benchmarks.processes import ABSTRACT, LIFTING, design_command, usage_of
 from benchmarks.report import Section, table
 

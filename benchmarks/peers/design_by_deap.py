@@ -19,7 +19,7 @@ from benchmarks.workloads.lifting import BEHAVIORS, ROBOTS, Workload
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bbsd.solver.settings import Settings
+    from bbsd.solver.paper.settings import Settings
     from benchmarks.workloads.arrays import Floats, Integers, Symbols
 
     Run = Callable[[Symbols, Integers, np.random.Generator], tuple[Floats, Floats]]

@@ -17,7 +17,7 @@ from bbsd.evaluation import NotEnumerable, enumerate_starts, returns_of
 from bbsd.evaluation.sums import deviation, expectation, mean
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import name_word
-from bbsd.runs.identity import identity
+from bbsd.runs.storage.identity import identity
 from bbsd.solver.arena import Arena
 from bbsd.version import REVISION
 from experiments.designs import SPECS

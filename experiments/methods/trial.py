@@ -10,12 +10,12 @@ import bbsd
 from bbsd.compiler import compile_meaning
 from bbsd.runs.run import generations, run_key, start
 from bbsd.runs.searching import Course
-from bbsd.runs.state import Searching
-from bbsd.solver.generation import State
+from bbsd.runs.storage.state import Searching
 from bbsd.solver.methods.method import SearchState
 from bbsd.solver.methods.q_learning import TooManyJointCells
+from bbsd.solver.paper.generation import State
+from bbsd.solver.paper.settings import settings_of
 from bbsd.solver.search import final_race, search_budget
-from bbsd.solver.settings import settings_of
 from experiments.methods.cells import Cell, Result
 from experiments.methods.contestants import PAPER, method_of
 from experiments.methods.tasks import Task, task

@@ -8,7 +8,7 @@ import pytest
 import bbsd
 from bbsd import files
 from bbsd.errors import UsageError
-from bbsd.runs import records
+from bbsd.runs.storage import records
 
 SPEC = """
 bbsd: 1

@@ -15,8 +15,8 @@ from bbsd.kernel.keys import keys
 from bbsd.report.figures import draw_episode
 from bbsd.report.figures.files import color
 from bbsd.runs.run import generations, start
+from bbsd.solver.paper.settings import settings_of
 from bbsd.solver.random_agents import random_agents
-from bbsd.solver.settings import settings_of
 
 SPECS = Path(__file__).parents[2] / "specs"
 PAPER = SPECS / "paper"

@@ -8,7 +8,7 @@ import bbsd.api
 from bbsd.architecture import HolesLeft
 from bbsd.errors import SpecError
 from bbsd.evaluation import NotEnumerable
-from bbsd.runs.folder import FolderError
+from bbsd.runs.storage.folder import FolderError
 from bbsd.version import REVISION
 
 SPEC = Path(__file__).parents[1] / "end_to_end" / "specs" / "thermostat.yaml"

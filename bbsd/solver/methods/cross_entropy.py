@@ -16,7 +16,7 @@ from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.distribution import Distribution, uniform_distribution
 from bbsd.solver.methods.method import Method, SearchState
 from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
-from bbsd.solver.sharing import lifetime_fitness
+from bbsd.solver.paper.sharing import lifetime_fitness
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,7 +9,7 @@ import numpy as np
 
 from bbsd.kernel.jit import jit
 from bbsd.kernel.streams import fold, name_word, unit, word_of
-from bbsd.solver.sharing import in_order
+from bbsd.solver.paper.sharing import in_order
 from bbsd.solver.space import Designs
 
 if TYPE_CHECKING:

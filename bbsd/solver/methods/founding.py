@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.solver.sharing import lifetime_fitness
+from bbsd.solver.paper.sharing import lifetime_fitness
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -18,7 +18,7 @@ from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.founding import SHARE, best_random
 from bbsd.solver.methods.method import Method, SearchState
 from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
-from bbsd.solver.sharing import lifetime_fitness
+from bbsd.solver.paper.sharing import lifetime_fitness
 from bbsd.solver.space import Designs, uniforms
 
 if TYPE_CHECKING:

@@ -15,8 +15,8 @@ from bbsd.evaluation.sums import mean as mean_of
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
-from bbsd.solver.credit import credit_backwards, learn_values, perturbed_tables, rates_between
 from bbsd.solver.draws import marks
+from bbsd.solver.methods.credit import credit_backwards, learn_values, perturbed_tables, rates_between
 from bbsd.solver.methods.method import Method, SearchState, with_champions
 from bbsd.solver.methods.nomination import CAPACITY, EPISODES, NOMINATION, with_rest_spent
 from bbsd.solver.space import Designs

@@ -13,7 +13,6 @@ import numpy as np
 
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
-from bbsd.solver.culture import take_in
 from bbsd.solver.methods.founding import SHARE
 from bbsd.solver.methods.method import Method, SearchState
 from bbsd.solver.methods.nomination import CAPACITY, nominated, nominated_means, with_rest_spent
@@ -26,6 +25,7 @@ from bbsd.solver.methods.society import (
     next_societies,
     society_of,
 )
+from bbsd.solver.paper.culture import take_in
 
 if TYPE_CHECKING:
     from bbsd.solver.arena import Arena

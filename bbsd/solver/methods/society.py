@@ -16,11 +16,11 @@ import numpy as np
 from bbsd.evaluation import Agents
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.design import CultureSettings
-from bbsd.solver.culture import Culture, draw_memes, empty_culture, take_in
-from bbsd.solver.genetics import Breeding, next_pool
 from bbsd.solver.methods.founding import best_random
-from bbsd.solver.pairing import members
-from bbsd.solver.sharing import lenient, lifetime_fitness
+from bbsd.solver.paper.culture import Culture, draw_memes, empty_culture, take_in
+from bbsd.solver.paper.genetics import Breeding, next_pool
+from bbsd.solver.paper.pairing import members
+from bbsd.solver.paper.sharing import lenient, lifetime_fitness
 from bbsd.solver.space import Designs
 
 if TYPE_CHECKING:

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from bbsd.runs.command import Command
-from bbsd.runs.folder import Folder
-from bbsd.runs.identity import Identity
+from bbsd.runs.storage.folder import Folder
+from bbsd.runs.storage.identity import Identity
 from tests.unit.solver.problems import guess
 
 WHO = Identity((("environment", "a"), ("reward", "b")), 11, 2)

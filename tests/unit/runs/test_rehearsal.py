@@ -1,7 +1,7 @@
 import pytest
 
 from bbsd.runs.rehearsal import rehearse, smallest
-from bbsd.solver.settings import settings_of
+from bbsd.solver.paper.settings import settings_of
 from tests.unit.problems import RICH, problem_of
 from tests.unit.solver.problems import guess
 

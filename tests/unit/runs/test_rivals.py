@@ -3,10 +3,10 @@ import pytest
 from bbsd.compiler import compile_meaning
 from bbsd.language.loading import load
 from bbsd.runs.command import Command
-from bbsd.runs.folder import Folder
-from bbsd.runs.identity import identity
 from bbsd.runs.rivals import all_rivals, each_run, paper_episodes, rival, rival_command
-from bbsd.solver.settings import settings_of
+from bbsd.runs.storage.folder import Folder
+from bbsd.runs.storage.identity import identity
+from bbsd.solver.paper.settings import settings_of
 from bbsd.text import Source
 from tests.unit.solver.problems import GUESS
 

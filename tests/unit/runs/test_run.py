@@ -3,11 +3,11 @@ from itertools import islice
 
 import pytest
 
-from bbsd.runs import checkpoint
 from bbsd.runs.run import generations, run_key, start
-from bbsd.runs.state import restored_run, run_arrays
+from bbsd.runs.storage import checkpoint
+from bbsd.runs.storage.state import restored_run, run_arrays
 from bbsd.solver.judgement import judge
-from bbsd.solver.settings import settings_of
+from bbsd.solver.paper.settings import settings_of
 from tests.unit.problems import RICH, problem_of
 from tests.unit.runs.commands import WHO
 from tests.unit.solver.problems import guess

@@ -4,7 +4,7 @@ import pytest
 
 from bbsd.runs.command import Command
 from bbsd.runs.searching import ANSWER, SEARCH
-from bbsd.runs.state import Searching
+from bbsd.runs.storage.state import Searching
 from bbsd.solver.methods.registry import METHODS
 from tests.unit.runs.commands import search_of
 

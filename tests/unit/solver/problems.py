@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from bbsd.solver.genetics import Breeding
-from bbsd.solver.settings import settings_of
+from bbsd.solver.paper.genetics import Breeding
+from bbsd.solver.paper.settings import settings_of
 from tests.unit.problems import problem_of
 
 GUESS = """

@@ -4,8 +4,8 @@ import numpy as np
 
 from bbsd.architecture import Architecture
 from bbsd.solver.answer import answer, candidates, distinct
-from bbsd.solver.culture import Culture
-from bbsd.solver.generation import initial_state
+from bbsd.solver.paper.culture import Culture
+from bbsd.solver.paper.generation import initial_state
 from tests.unit.solver.problems import guess
 
 BEST = (np.array([1, 1, 2, 2], np.uint8), np.array([1, 2, 2, 2], np.uint8), np.array([1], np.uint8))

@@ -3,8 +3,8 @@ import pytest
 from bbsd.evaluation import agents_of, detailed_outcomes, evaluation
 from bbsd.kernel.keys import keys
 from bbsd.solver.answer import answer
-from bbsd.solver.generation import initial_state, next_generation
 from bbsd.solver.judgement import judge
+from bbsd.solver.paper.generation import initial_state, next_generation
 from tests.unit.solver.problems import guess
 
 

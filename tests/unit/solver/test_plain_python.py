@@ -10,14 +10,14 @@ import numpy as np
 
 import bbsd
 from bbsd.kernel.keys import keys
-from bbsd.solver.credit import credit_backwards, learn_values, perturbed_tables, rates_between
-from bbsd.solver.culture import Culture, draw_memes
 from bbsd.solver.draws import marks
-from bbsd.solver.estimates import update_values
-from bbsd.solver.genetics import OPEN_CELL, expected_fitness, next_pool, random_pool
+from bbsd.solver.methods.credit import credit_backwards, learn_values, perturbed_tables, rates_between
 from bbsd.solver.methods.distribution import draw_choices, draw_hands
 from bbsd.solver.methods.joint import deal
-from bbsd.solver.pairing import members
+from bbsd.solver.paper.culture import Culture, draw_memes
+from bbsd.solver.paper.estimates import update_values
+from bbsd.solver.paper.genetics import OPEN_CELL, expected_fitness, next_pool, random_pool
+from bbsd.solver.paper.pairing import members
 from bbsd.solver.structures import (
     OPEN,
     candidates_for,

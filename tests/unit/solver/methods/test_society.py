@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from bbsd.solver.arena import Arena
-from bbsd.solver.culture import Culture
 from bbsd.solver.methods import society as module
 from bbsd.solver.methods.society import (
     LEADERS_MODULE,
@@ -16,6 +15,7 @@ from bbsd.solver.methods.society import (
     next_society,
     society_of,
 )
+from bbsd.solver.paper.culture import Culture
 from bbsd.solver.space import Designs
 from tests.unit.solver.problems import guess
 

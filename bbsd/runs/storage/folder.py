@@ -1,0 +1,272 @@
+"""A design's folder: plain files that anything can open, and from which a run that was stopped is resumed."""
+
+from __future__ import annotations
+
+import json
+import platform
+from dataclasses import dataclass
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bbsd.files import move, write_text_whole, write_whole
+from bbsd.runs.storage.census import TABLES
+from bbsd.runs.storage.records import METRICS, FolderError, Records
+from bbsd.version import REVISION, __version__
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from bbsd.runs.storage.identity import Identity
+
+FORMAT = 3
+"""The format of `run.json`."""
+SPEC, LOCK = "spec.yaml", "lock"
+"""Files that are made before `run.json`."""
+DIGEST = "architecture_sha256"
+"""The key of a result under which the digest of the designed spec stands."""
+
+
+@dataclass(frozen=True, slots=True)
+class Folder:
+    """The files of a design."""
+
+    path: Path
+
+    @property
+    def architecture(self) -> Path:
+        """The file of the designed spec."""
+        return self.path / "architecture.yaml"
+
+    @property
+    def best(self) -> Path:
+        """The file of the best design so far, while there is no answer."""
+        return self.path / "best.yaml"
+
+    @property
+    def metrics(self) -> Path:
+        """The file with one line for each generation."""
+        return self.path / "metrics.jsonl"
+
+    @property
+    def run_file(self) -> Path:
+        """The file that says what was run, with what, and with which result."""
+        return self.path / "run.json"
+
+    def records(self, run: int, n_runs: int) -> Records:
+        """Return the records of a run, which counts from 0: in the folder itself where it is the only one."""
+        return Records(self.path if n_runs == 1 else self.path / f"run-{run + 1}")
+
+    def gather(self, n_runs: int) -> None:
+        """Write the metrics and the tables of all runs, in their order, into one file each."""
+        if n_runs == 1:
+            return
+        folders = [self.records(run, n_runs).path for run in range(n_runs)]
+        write_whole(self.metrics, b"".join((folder / METRICS).read_bytes() for folder in folders))
+        for name in TABLES:
+            tables = [(folder / name).read_bytes() for folder in folders if (folder / name).exists()]
+            if tables:  # the names of the columns stand in the first line of each
+                rest = (table.partition(b"\n")[2] for table in tables[1:])
+                write_whole(self.path / name, b"".join([tables[0], *rest]))
+
+    def copy_spec(self, text: str) -> None:
+        """Keep the spec as it is when the design begins."""
+        write_text_whole(self.path / SPEC, text)
+
+    def write_architecture(self, text: str) -> None:
+        """Write the designed spec; one that was edited since is kept, beside a new one where there is one.
+
+        The digest in `run.json` proves that a file is what was written.
+        """
+        recorded = self.result().get(DIGEST)
+        there = self.architecture.read_bytes() if self.architecture.exists() else b""
+        if there and recorded and sha256(there).hexdigest() != recorded:
+            if digest_of(text) == recorded:
+                return
+            move(self.architecture, self.path / "architecture.edited.yaml")
+        if there != text.encode():
+            write_text_whole(self.architecture, text)
+        self.best.unlink(missing_ok=True)
+
+    def write_best(self, text: str) -> Path:
+        """Write the best design so far of runs that were stopped, and return its file."""
+        write_text_whole(self.best, text)
+        return self.best
+
+    def design(self) -> Design:
+        """Return what this is the design of. Raises FolderError where it is none."""
+        content, spec = self.read_run_file(), self.path / SPEC
+        seed, runs, overrides = content.get("seed"), content.get("runs"), content.get("set")
+        if (
+            not isinstance(seed, int)
+            or not isinstance(runs, int)
+            or not isinstance(overrides, list)
+            or not spec.exists()
+        ):
+            raise FolderError(f"{self.path} is not the folder of a design")
+        return Design(spec, seed, runs, tuple(map(str, overrides)))
+
+    def result(self) -> dict[str, Any]:
+        """Return the result that `run.json` holds, empty where there is none."""
+        result = self.read_run_file().get("result")
+        return result if isinstance(result, dict) else {}
+
+    def budgets(self) -> tuple[int, ...]:
+        """Return the budgets that `run.json` holds. Raises FolderError where they are none."""
+        budgets = self.read_run_file().get("budgets", [])
+        if not isinstance(budgets, list) or not all(type(each) is int and each > 0 for each in budgets):
+            raise FolderError(f"the budgets in {self.run_file} are damaged; remove the folder to start again")
+        return tuple(budgets)
+
+    def lines(self) -> list[dict[str, Any]]:
+        """Return the metrics of all generations. Raises FolderError for a damaged file."""
+        return Records(self.path).lines()
+
+    def write_run_file(
+        self,
+        who: Identity,
+        overrides: Sequence[str] = (),
+        budgets: Sequence[int] = (),
+        result: dict[str, Any] | None = None,
+    ) -> None:
+        """Write `run.json`, with the result once there is one."""
+        content = {
+            "format": FORMAT,
+            **who.plain(),
+            "set": list(overrides),
+            **({"budgets": list(budgets)} if budgets else {}),
+            "versions": {name: version(name) for name in ("numba", "numpy", "llvmlite")},
+            "machine": {
+                "python": platform.python_version(),
+                "system": platform.system(),
+                "processor": platform.machine(),
+            },
+            **({} if result is None else {"result": result}),
+        }
+        write_text_whole(self.run_file, json.dumps(content, indent=2) + "\n")
+
+    def read_run_file(self) -> dict[str, Any]:
+        """Return the content of `run.json`, empty where there is none or it is damaged."""
+        try:
+            content = json.loads(self.run_file.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return content if isinstance(content, dict) else {}
+
+    def holds(self, who: Identity) -> bool:
+        """Return whether this is the folder of that design, by this version and revision."""
+        return _agrees(self.read_run_file(), who.plain())
+
+    def holds_other_version(self, who: Identity) -> bool:
+        """Return whether this is the folder of the same spec, seed and runs by another version."""
+        content = self.read_run_file()
+        chosen = who.command()
+        if "spec" not in content and "spec_sha256" in content:  # format 2 had a digest of the text
+            del chosen["spec"]
+        return _agrees(content, chosen) and not self.holds(who)
+
+
+@dataclass(frozen=True, slots=True)
+class Design:
+    """What a folder is the design of."""
+
+    spec: Path
+    seed: int
+    runs: int
+    overrides: tuple[str, ...]
+
+
+def digest_of(text: str) -> str:
+    """Return the digest of a text that proves that a file of it is whole."""
+    return sha256(text.encode()).hexdigest()
+
+
+def _agrees(content: Mapping[str, Any], expected: Mapping[str, Any]) -> bool:
+    return all(content.get(key) == value for key, value in expected.items())
+
+
+def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
+    """Make a new folder: the one wanted, which must be empty or not there, or the first free one under `runs/`."""
+    try:
+        if wanted is None:
+            return Folder(next(path for path in _defaults(name, seed) if _make(path)))
+        if not _make(wanted) and not _is_unused(wanted):
+            raise FolderError(
+                f"{wanted} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
+            )
+    except OSError as error:
+        raise FolderError(f"{error.filename} cannot be made: {error.strerror}") from None
+    return Folder(wanted)
+
+
+def _make(path: Path) -> bool:
+    """Make a folder and return True, or False if it is there, maybe made by another run just now."""
+    try:
+        path.mkdir(parents=True)
+    except FileExistsError:
+        return False
+    return True
+
+
+def _is_unused(path: Path) -> bool:
+    """Return whether nothing is in a folder, or only what a design leaves that was killed before it began."""
+    return path.is_dir() and all(
+        file.name in (LOCK, SPEC) or file.name.endswith(".part") for file in path.iterdir()
+    )
+
+
+def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
+    """Return the folder of a design: the one wanted, or the newest one under `runs/`.
+
+    Raises FolderError if no folder holds this design, or only by another version or revision of bbsd.
+    """
+    folders = [Folder(wanted)] if wanted is not None else [*_default_folders(name, who.seed)]
+    for folder in reversed(folders):
+        if folder.holds(who):
+            return folder
+    for folder in reversed(folders):
+        if folder.holds_other_version(who):
+            raise FolderError(_other_version(folder))
+    if wanted is not None:
+        raise FolderError(_other_run(folders[0], who))
+    raise FolderError(
+        "there is no run of this spec with this seed under runs/ that could be resumed; name its folder with --out"
+    )
+
+
+def _other_run(folder: Folder, who: Identity) -> str:
+    content = folder.read_run_file()
+    if not folder.run_file.exists() and _is_unused(folder.path):
+        return f"{folder.path} holds no run of this spec: nothing was begun there; start it without --resume"
+    different = f": different are {' and '.join(who.differences(content))}" if "spec" in content else ""
+    return f"{folder.path} holds no run of this spec with this seed, these runs and these settings{different}"
+
+
+def _other_version(folder: Folder) -> str:
+    content = folder.read_run_file()
+    theirs = (
+        f"bbsd {content.get('bbsd', 'of unknown version')}, revision {content.get('revision', 'unknown')}"
+    )
+    return (
+        f"{folder.path} is a run of the same spec and seed by {theirs}; this is bbsd {__version__}, "
+        f"revision {REVISION}, which may give other results: resume it with the former, or start again without --resume"
+    )
+
+
+def _default_folders(name: str, seed: int) -> Iterator[Folder]:
+    """Yield the folders under `runs/` that are there, oldest first."""
+    for path in _defaults(name, seed):
+        if not path.exists():
+            return
+        yield Folder(path)
+
+
+def _defaults(name: str, seed: int) -> Iterator[Path]:
+    """Yield the folders under `runs/` that a design may use, one after another without end."""
+    base = Path("runs") / f"{name}-seed{seed}"
+    yield base
+    number = 2
+    while True:
+        yield base.with_name(f"{base.name}-{number}")
+        number += 1

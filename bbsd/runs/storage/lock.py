@@ -1,0 +1,81 @@
+"""One writer at a time in a run's folder."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import platform
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from bbsd.errors import UsageError
+from bbsd.runs.storage.folder import LOCK
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from bbsd.runs.storage.folder import Folder
+
+HELD = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES)
+"""The reasons of a refusal when another process has the lock."""
+MOST_BYTES = 1000
+"""Bytes of the file that are read: it names one process."""
+
+
+class FolderInUse(UsageError):
+    """Another process writes in the folder."""
+
+    advice = "wait until it has ended, or stop it; it can then be continued with --resume"
+
+
+@contextmanager
+def only_writer(folder: Folder) -> Iterator[None]:
+    """Hold the lock of a folder, which the system frees when this process ends, however it ends.
+
+    Raises:
+        FolderInUse: another process holds it; the message names the process.
+    """
+    path = folder.path / LOCK
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o666)
+    try:
+        if not _locked(descriptor):
+            raise FolderInUse(f"{folder.path} is being written by {_holder(path)}")
+        os.ftruncate(descriptor, 0)
+        os.write(descriptor, _who().encode())
+        yield
+        os.ftruncate(descriptor, 0)
+    finally:
+        os.close(descriptor)
+
+
+def _locked(descriptor: int) -> bool:
+    """Lock a file for this process and return True, or False where another one has it."""
+    try:
+        import fcntl
+    except ImportError:  # a system without such locks
+        return True
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno not in HELD  # a file system without locks has nobody who holds one
+    return True
+
+
+def _who() -> str:
+    since = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
+    return json.dumps({"host": platform.node(), "process": os.getpid(), "since": since}) + "\n"
+
+
+def _holder(path: Path) -> str:
+    """Return who holds a lock, in words."""
+    try:
+        with path.open("rb") as file:
+            holder: Any = json.loads(file.read(MOST_BYTES))
+        return (
+            f"process {holder['process']:d} on {str(holder['host'])[:64]}, since {str(holder['since'])[:32]}"
+        )
+    except (OSError, ValueError, KeyError, TypeError):
+        return "another process"

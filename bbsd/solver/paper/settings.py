@@ -1,0 +1,79 @@
+"""The `design` block of a spec as the solver uses it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+from bbsd.solver.paper.genetics import Breeding
+
+if TYPE_CHECKING:
+    from bbsd.language.design import Answer, Coevolution, CultureSettings, Learning, MethodName
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.rates import Rates
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Settings:
+    """The parts of a `design` block, their numbers cut to what the spec allows, and what is computed from them."""
+
+    method: MethodName
+    """The method that is named, or meant by the keys that are given."""
+    budget: int | None
+    """Episodes of a run in all; None where they are to be found automatically."""
+    sharing: Literal["uniform", "value", "difference"]
+    coevolution: Coevolution
+    """With at most as many elites as individuals."""
+    learning: Learning
+    """With the episodes that a lifetime has: the last ones only, where the structure is given."""
+    culture: CultureSettings | None
+    """None where there is no culture, or no structure that a meme could pass on."""
+    answer: Answer
+    learned: bool
+    """Whether there is a structure to learn."""
+    rates: Rates
+    """Mutation rates of each generation; learning rate α of (13) and exploration ε of each episode of a lifetime."""
+
+    def breeding(self, generation: int) -> Breeding:
+        """Return the settings of the genetic operators in a generation, which counts from 1."""
+        evolved, rates = self.coevolution, self.rates
+        return Breeding(
+            tournament=evolved.tournament,
+            elites=evolved.elites,
+            crossover=float(evolved.crossover),
+            children=evolved.children,
+            hard_mutation=float(rates.hard_mutation[generation - 1]),
+            soft_mutation=float(rates.soft_mutation[generation - 1]),
+        )
+
+    def reduced(self, agents: int, episodes: int, **coevolution: int) -> Settings:
+        """Return the settings with at most so many agents and episodes of a lifetime, and other numbers as given."""
+        agents = min(agents, self.coevolution.agents)
+        return replace(
+            self,
+            coevolution=self.coevolution.model_copy(update={"agents": agents, **coevolution}),
+            learning=with_lifetime(self.learning, min(episodes, self.learning.episodes)),
+        )
+
+
+def settings_of(meaning: Meaning) -> Settings:
+    """Return the settings of a spec."""
+    design, learned = meaning.spec.design, meaning.structure.is_open
+    elites = min(design.coevolution.elites, design.coevolution.population)
+    learning = design.learning
+    return Settings(
+        method=design.chosen_method,
+        budget=design.episodes,
+        sharing=design.sharing,
+        coevolution=design.coevolution.model_copy(update={"elites": elites}),
+        learning=with_lifetime(learning, learning.episodes if learned else learning.last),
+        culture=design.culture if learned and design.culture != "none" else None,
+        answer=design.answer,
+        learned=learned,
+        rates=meaning.rates,
+    )
+
+
+def with_lifetime(learning: Learning, episodes: int) -> Learning:
+    """Return the settings of a lifetime of so many episodes, of which at most all are the last ones."""
+    return learning.model_copy(update={"episodes": episodes, "last": min(learning.last, episodes)})
