@@ -160,11 +160,22 @@ def _after_run(state: AutoState, arena: Arena, key: int, budget: int) -> AutoSta
     best[index] = max(best[index], _best_of(state, nominees))
     runs[index] += 1
     state = replace(state, best=best, runs=runs)
-    if index + 1 < len(state.searches) and not runs[index + 1]:
+    if index + 1 < len(state.searches) and not runs[index + 1] and _is_promising(state, arena, index + 1):
         return replace(state, turn=index + 1)
     if state.spent < FINISHING * budget:
         return _with_run(state, arena, key, _leader(best), int(FURTHER_SHARE * budget))
     return replace(state, turn=len(state.searches), climbs=0)
+
+
+def _is_promising(state: AutoState, arena: Arena, index: int) -> bool:
+    """Tell whether a search that has not begun should.
+
+    Practice and Q-learning both learn what joint cells are worth; where practice trails, those hide too much.
+    """
+    methods = _methods(state, arena)
+    if methods[index] is not q_learning.METHOD or practice.METHOD not in methods:
+        return True
+    return bool(state.best[methods.index(practice.METHOD)] == state.best.max())
 
 
 def _leader(best: NDArray[np.float64]) -> int:

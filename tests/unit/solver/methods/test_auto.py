@@ -109,3 +109,15 @@ def test_more_episodes_after_the_end_go_on(arena):
     while state.spent < BUDGET + 5000:
         state = METHOD.advance(state, arena, 1, BUDGET + 5000)
     assert state.spent == BUDGET + 5000
+
+
+@pytest.mark.parametrize(("practice_leads", "q_runs"), [(True, 1), (False, 0)])
+def test_q_learning_begins_only_where_practice_does_not_trail(arena, monkeypatch, practice_leads, q_runs):
+    worse, better = in_order_of_quality(arena)
+    other = finding("other", worse if practice_leads else better, arena)
+    practicing = finding("practice", better if practice_leads else worse, arena)
+    learning = finding("q", worse, arena)
+    monkeypatch.setattr(auto.practice, "METHOD", practicing)
+    monkeypatch.setattr(auto.q_learning, "METHOD", learning)
+    monkeypatch.setattr(auto, "FEW_OPENINGS", ((other, 0.1), (practicing, 0.1), (learning, 0.1)))
+    assert searched(arena)[-1].runs[2] == q_runs
