@@ -13,10 +13,10 @@ demo: $(VENV)/.demo
 
 test: lint unit
 
-# For every save: the slowest tests are printed, so that a new slow one is seen and marked.
+# For every save. The slowest tests are printed, so that one that is new and slow is seen, and marked with pytest.mark.slow.
 quick: $(VENV)/.test
 	$(BIN)/ruff check --quiet .
-	$(BIN)/lint-imports --no-cache > .cache/imports.txt || (cat .cache/imports.txt; exit 1)
+	$(BIN)/lint-imports --no-cache
 	$(BIN)/pytest -q -n 2 --dist worksteal -m "not slow" --ignore tests/end_to_end \
 	  --hypothesis-profile quick --durations 5 --durations-min 1
 

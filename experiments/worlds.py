@@ -49,9 +49,9 @@ def by_hand(world: str) -> tuple[Row, Earnings]:
 
 def at_random(world: str, hand: Earnings) -> Row:
     """Evaluate random agents, which should be clearly worse than the hand-made design."""
-    found = bbsd.evaluate(spec_path(world), fill="random", agents=200, episodes=20)
-    worse = found.ci95[1] < interval(hand.returns).low
-    return Row(world, "random agents", found.mean, None, None, worse)
+    evaluation = bbsd.evaluate(spec_path(world), fill="random", agents=200, episodes=20)
+    worse = evaluation.ci95[1] < interval(hand.returns).low
+    return Row(world, "random agents", evaluation.mean, None, None, worse)
 
 
 def learned(world: str, seed: int, hand: Earnings, folder: Path) -> Row:

@@ -1,4 +1,5 @@
-"""Damaged and heavy specs that `bbsd check` must survive: `make fuzz`, or `python -m fuzzing --seconds 3600 --seed 1`.
+"""Damaged and heavy specs that `bbsd check` must survive: `make fuzz SECONDS=3600`, or
+`python -m fuzzing --seconds 3600 --seed 1`.
 
 - `damage.py` damages specs in their text, data and expressions. To add a kind: write a function of a text and a random
   generator, and list it in `DAMAGES`.
