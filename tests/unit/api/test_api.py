@@ -11,7 +11,7 @@ from bbsd.evaluation import NotEnumerable
 from bbsd.runs.storage.folder import FolderError
 from bbsd.version import REVISION
 
-SPEC = Path(__file__).parents[1] / "end_to_end" / "specs" / "thermostat.yaml"
+SPEC = Path(__file__).parents[2] / "end_to_end" / "specs" / "thermostat.yaml"
 SEED = 2
 EXACT = """
 bbsd: 1
@@ -246,7 +246,7 @@ def test_the_kernel_that_is_printed_is_the_one_that_runs():
     source = bbsd.api.compile(SPEC, lanes=8)
     assert "def rollout(" in source
     assert "def rollout_detailed(" in source
-    lifting = Path(__file__).parents[2] / "specs" / "object_lifting.yaml"
+    lifting = Path(__file__).parents[3] / "specs" / "object_lifting.yaml"
     assert bbsd.api.compile(lifting).count("atan(") == 3  # at the start, and in steps where the tilt is told
 
 

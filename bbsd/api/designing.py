@@ -1,0 +1,270 @@
+"""Design a spec, or price what that costs."""
+
+from __future__ import annotations
+
+import time
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bbsd.architecture import designed_text, require_writable, tidy_tables
+from bbsd.compiler import Problem, compile_meaning
+from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.runs.answers import complete_runs
+from bbsd.runs.command import Command
+from bbsd.runs.interim import best_so_far
+from bbsd.runs.pace import budget_of
+from bbsd.runs.price import Price
+from bbsd.runs.price import price as price_of
+from bbsd.runs.rivals import each_run, paper_episodes, rival, spent
+from bbsd.runs.searching import ANSWER
+from bbsd.runs.signals import interrupts_request_stop
+from bbsd.runs.storage.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
+from bbsd.runs.storage.identity import Identity, identity
+from bbsd.runs.storage.lock import only_writer
+from bbsd.runs.visits import unvisited
+from bbsd.solver.budget import automatic_budget
+from bbsd.solver.judgement import Selection, judge
+from bbsd.solver.paper.settings import settings_of
+from bbsd.stopping import stop_request_of_context
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from bbsd.language.loading import Loaded
+    from bbsd.runs.processes import Processes
+    from bbsd.solver.paper.settings import Settings
+from bbsd.api.results import (
+    AnyProgress,
+    BestSoFar,
+    Designed,
+    Interrupted,
+    NoBudget,
+    NothingToDesign,
+    Progress,
+    SearchProgress,
+)
+from bbsd.api.specs import AnySpec, load, located_reward_errors
+
+
+def design(
+    spec: AnySpec,
+    *,
+    seed: int = 0,
+    runs: int = 1,
+    out: str | Path | None = None,
+    resume: bool = False,
+    lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
+    overrides: Sequence[str] = (),
+    progress: Callable[[AnyProgress], None] | None = None,
+    overdue: Callable[[Interrupted], object] | None = None,
+    ready: Processes | None = None,
+    more: int | None = None,
+    within: float | None = None,
+    rivals: Sequence[str] = (),
+) -> Designed:
+    """Fill the holes of a spec, and write the design and its metrics into a folder.
+
+    The same spec, overrides, seed and number of runs give the same bytes of `architecture.yaml` and `metrics.jsonl`,
+    however often the design was stopped and resumed.
+
+    Args:
+        spec: A spec with holes.
+        seed: Seed of all random numbers.
+        runs: Number of independent runs; the best of their designs is kept.
+        out: The folder to write, new or empty; by default the first free one under `runs/`.
+        resume: Continue the same design in `out`, by default in the newest folder under `runs/` that holds it.
+        lanes: Episodes that a kernel runs side by side; affects only the speed.
+        jobs: Processes for several runs, and threads within a run if there are more jobs than runs; affects only
+            the speed.
+        overrides: Values that replace those of the spec.
+        progress: Called after each generation, or each time the best so far was measured.
+        overdue: Called in another thread if the design does not stop soon after an interrupt. An interrupt takes
+            effect after the episodes that are running. `overdue` may end the process, since all written files are
+            complete.
+        ready: Worker processes that were started before; by default as many are started as are needed.
+        more: Episodes of a further budget for each run that `resume` continues; the same sequence of budgets gives
+            the same bytes.
+        within: Seconds of each run, instead of a budget in episodes; the result cannot be reproduced.
+        rivals: Names of methods on which the same budget is spent too; what they achieve is reported beside.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        NothingToDesign: the spec has no holes.
+        NoBudget: `more` or `within` for the paper's loop.
+        FolderInUse: another process writes in the folder.
+        FolderError: the folder cannot be written, or not be resumed.
+        WorkerLost: a process that did a run was killed.
+        Interrupted: the design was interrupted; `resume` continues it.
+    """
+    started = time.monotonic()
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = _problem_with_holes(loaded, lanes, jobs)
+    settings = settings_of(loaded.meaning)
+    if settings.method == "paper" and (more is not None or within is not None):
+        raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
+    run_identity = identity(loaded, seed, runs)
+    folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
+    with only_writer(folder):
+        budgets = _budgets(settings, problem, folder, more, within)
+        if not resume or budgets != folder.budgets():
+            folder.write_run_file(run_identity, overrides, budgets, folder.result() or None)
+        command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
+        listener = progress and _metrics_listener(command, progress)
+        with _interruptible(command, loaded, overdue, keep_best=True):
+            answers = complete_runs(command, jobs, listener, ready)
+            judged = judge(answers, problem, settings, seed)
+            missed = unvisited(command)
+        folder.gather(runs)
+        text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
+        folder.write_architecture(text)
+        names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
+        result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
+        folder.write_run_file(run_identity, overrides, budgets, result)
+        with _interruptible(command, loaded, overdue, keep_best=False):
+            others = tuple(
+                rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
+                for name in rivals
+            )
+    seconds = time.monotonic() - started
+    return Designed(
+        folder.architecture,
+        folder.path,
+        settings.method,
+        names,
+        judged.evaluation,
+        judged.lifetime,
+        judged.random,
+        seconds,
+        judged.selection,
+        spent(command),
+        each_run(command, answers) if runs > 1 else (),
+        others,
+        _first_reward(folder, judged.selection),
+        missed,
+    )
+
+
+def _first_reward(folder: Folder, selection: Selection) -> int | None:
+    """Return the episodes after which a search had a design that earns something else than all random agents."""
+    if selection.alike is None:
+        return None
+    lines = folder.lines()
+    return min(
+        (line["episodes"] for line in lines if "episodes" in line and line["mean"] != selection.alike),
+        default=None,
+    )
+
+
+def _budgets(
+    settings: Settings, problem: Problem, folder: Folder, more: int | None, within: float | None
+) -> tuple[int, ...]:
+    """Return the budgets of each run: those that the folder names, and what is wanted beyond them."""
+    if settings.method == "paper":
+        return ()
+    former = folder.budgets()
+    wanted = sum(former)
+    if within is None:
+        wanted = settings.budget or wanted or automatic_budget(problem)
+    elif not former:
+        wanted = budget_of(within, problem, settings)
+    further = [wanted - sum(former), more or 0]
+    return (*former, *(budget for budget in further if budget > 0))
+
+
+@contextmanager
+def _interruptible(
+    command: Command,
+    loaded: Loaded,
+    overdue: Callable[[Interrupted], object] | None,
+    *,
+    keep_best: bool,
+) -> Iterator[None]:
+    """Turn an interrupt inside into Interrupted, the best design so far being kept where there is no answer yet."""
+    interrupted = Interrupted(command.folder.path)
+    with located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
+        try:
+            yield
+        except KeyboardInterrupt:
+            if keep_best:
+                with stop_request_of_context():
+                    interrupted.best = _keep_best(command, loaded)
+            raise interrupted from None
+
+
+def _keep_best(command: Command, loaded: Loaded) -> BestSoFar | None:
+    """Write the best design so far of a search that was stopped."""
+    best = best_so_far(command)
+    if best is None:
+        return None
+    text = designed_text(loaded, tidy_tables(command.problem.meaning, best.architecture))
+    return BestSoFar(command.folder.write_best(text), best.mean, best.episodes)
+
+
+def price(
+    spec: AnySpec,
+    *,
+    seed: int = 0,
+    runs: int = 1,
+    lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
+    starting: float = 0.0,
+    overrides: Sequence[str] = (),
+) -> Price:
+    """Estimate the time and memory of a `design` from a sample of its episodes; write nothing.
+
+    Args:
+        spec: A spec with holes.
+        seed: Seed of the sample.
+        runs: Number of runs.
+        lanes: Episodes that a kernel runs side by side.
+        jobs: Processes and threads of the design.
+        starting: Seconds that the process needs before and after the design; they are added.
+        overrides: Values that replace those of the spec.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        NothingToDesign: the spec has no holes.
+    """
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = _problem_with_holes(loaded, lanes)
+    with located_reward_errors(loaded):
+        return price_of(problem, settings_of(loaded.meaning), seed, runs, jobs, starting)
+
+
+def _problem_with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
+    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    if not problem.has_holes:
+        raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
+    require_writable(loaded)
+    return problem
+
+
+def _run_folder(loaded: Loaded, run_identity: Identity, out: Path | None, *, resume: bool) -> Folder:
+    name = Path(loaded.source.file).stem
+    if resume:
+        return folder_to_resume(out, name, run_identity)
+    folder = new_folder(out, name, run_identity.seed)
+    folder.copy_spec(loaded.lineage.flat.source.text)
+    return folder
+
+
+def _metrics_listener(
+    command: Command, progress: Callable[[AnyProgress], None], rival_name: str = ""
+) -> Callable[[dict[str, Any]], None]:
+    """Return a function that reports the metrics of a generation as progress."""
+
+    def report(line: dict[str, Any]) -> None:
+        run, runs = line["run"], command.n_runs
+        if "generation" in line:
+            fitness = (line["mean"], line["best"], line["lifetime"])
+            generations = command.settings.coevolution.generations
+            progress(Progress(run, runs, line["generation"], generations, *fitness))
+        else:
+            best = (line["mean"], line["measured"], line["stage"] == ANSWER)
+            budget = sum(command.budgets) or paper_episodes(command.settings)
+            progress(SearchProgress(run, runs, line["episodes"], budget, *best, rival_name))
+
+    return report

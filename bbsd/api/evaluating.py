@@ -1,0 +1,134 @@
+"""Evaluate, trace and explain a design."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from bbsd.architecture import given_architecture
+from bbsd.compiler import Problem, compile_meaning
+from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.evaluation import (
+    Evaluation,
+    Trace,
+    agents_of,
+    detailed_outcomes,
+    enumerate_starts,
+    evaluation,
+    weighted_evaluation,
+)
+from bbsd.evaluation import trace as trace_episode
+from bbsd.explanation import Explanation, explain_architecture
+from bbsd.kernel.keys import keys, own_keys
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.language.meaning import seed_key
+from bbsd.solver.judgement import RANDOM_EPISODES
+from bbsd.solver.random_agents import random_agents
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from bbsd.compiler import DetailedOutcome
+    from bbsd.evaluation import Agents
+    from bbsd.evaluation.episodes import Keys
+from bbsd.api.specs import AnySpec, load, located_reward_errors
+
+EVALUATION = name_word("evaluation")
+EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES
+"""Numbers of episodes in an evaluation by default: of a design, and of each random agent, as after a design."""
+
+
+def evaluate(
+    spec: AnySpec,
+    *,
+    episodes: int | None = None,
+    seed: int = 0,
+    fill: Literal["random"] | None = None,
+    agents: int = 1000,
+    exact: bool = False,
+    lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
+    overrides: Sequence[str] = (),
+    progress: Callable[[int, int], None] | None = None,
+) -> Evaluation:
+    """Run episodes of a spec's design and return their statistics.
+
+    Args:
+        spec: A spec without holes, unless `fill` is given.
+        episodes: Number of episodes; by default 1000 for a design and 10 for each random agent. Designs that are
+            evaluated with the same seed face the same episodes.
+        seed: Seed of the episodes, and of the draws in constants.
+        fill: "random" fills the holes at random, once for each of `agents` agents; each has episodes of its own.
+        agents: Number of random agents.
+        exact: Run each possible start once, weighted by its probability, instead of random episodes.
+        lanes: Episodes that a kernel runs side by side; affects only the speed.
+        jobs: Threads to use; affects only the speed.
+        overrides: Values that replace those of the spec.
+        progress: Called from time to time with the numbers of finished and of all episodes.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        HolesLeft: the spec has holes.
+        NotEnumerable: `exact`, but the starts cannot be enumerated.
+    """
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    generation = loaded.spec.design.coevolution.generations
+    key = fold(seed_key(seed), EVALUATION)
+    with located_reward_errors(loaded):
+        if fill == "random":
+            fillings = random_agents(problem, fold(key, name_word("agents")), agents)
+            streams = own_keys(key, agents, episodes or EPISODES_OF_RANDOM_AGENT)
+            return evaluation(problem, _reported(problem, fillings, streams, generation, progress), agents)
+        agent = agents_of([given_architecture(problem)])
+        if exact:
+            problem, weights = enumerate_starts(problem)
+            starts = np.arange(len(weights), dtype=np.uint64)
+            return weighted_evaluation(
+                problem, _reported(problem, agent, starts, generation, progress), weights
+            )
+        streams = keys(key, 0, episodes or EPISODES_OF_DESIGN)
+        return evaluation(problem, _reported(problem, agent, streams, generation, progress), 1)
+
+
+def _reported(
+    problem: Problem,
+    agents: Agents,
+    streams: Keys,
+    generation: int,
+    progress: Callable[[int, int], None] | None,
+) -> Iterator[DetailedOutcome]:
+    """Run the episodes of agents and yield their outcomes batch by batch, reporting each batch to `progress`."""
+    done, total = 0, len(agents) * streams.shape[-1]
+    for outcome in detailed_outcomes(problem, agents, streams, generation):
+        done += len(outcome.returns)
+        if progress is not None:
+            progress(done, total)
+        yield outcome
+
+
+def trace(spec: AnySpec, *, seed: int = 0, episode: int = 0, overrides: Sequence[str] = ()) -> Trace:
+    """Run one of the episodes of `evaluate`, by its number from 0, and return all values of each step.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+    """
+    loaded = load(spec, seed=seed, overrides=overrides)
+    problem = compile_meaning(loaded.meaning, compiled=False)
+    key = fold(fold(seed_key(seed), EVALUATION), word_of(episode))
+    return trace_episode(
+        problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
+    )
+
+
+def explain(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Explanation:
+    """Describe in words what the design of a spec does, layer by layer.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+    """
+    meaning = load(spec, seed=seed, overrides=overrides).meaning
+    return explain_architecture(meaning, given_architecture(compile_meaning(meaning)))

@@ -1,0 +1,163 @@
+"""What the verbs return and raise, and what they report on the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+from bbsd.errors import UsageError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from bbsd.evaluation import (
+        Evaluation,
+        Interval,
+    )
+    from bbsd.runs.rivals import Rival
+    from bbsd.runs.visits import Unvisited
+    from bbsd.solver.judgement import Selection
+
+AnyProgress: TypeAlias = "Progress | SearchProgress"
+
+
+class NothingToDesign(UsageError):
+    """A spec without holes was given to `design`."""
+
+    advice = "to have parts of it designed, leave them out: the rules of a behavior, or the structure"
+
+
+class NoBudget(UsageError):
+    """A budget was given to a method that has none."""
+
+    advice = "name another method, such as --set design.method=auto"
+
+
+class Interrupted(KeyboardInterrupt):
+    """A design was stopped; its state is in `folder`, from which `design(..., resume=True)` continues."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(str(folder))
+        self.folder = folder
+        self.best: BestSoFar | None = None
+        """The best design so far, None where there is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class BestSoFar:
+    """The best design of a search that was stopped, by a short race."""
+
+    architecture: Path
+    """The file of the designed spec."""
+    mean: float
+    episodes: int
+    """Its mean return in the race, and the episodes of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a design is after a generation, and the fitness of its agents. Runs and generations count from 1."""
+
+    run: int
+    runs: int
+    generation: int
+    generations: int
+    mean: float
+    best: float
+    lifetime: float
+
+    @property
+    def done(self) -> int:
+        """What is done of a run, in generations."""
+        return self.generation
+
+    @property
+    def total(self) -> int:
+        """What a run consists of, in generations."""
+        return self.generations
+
+
+@dataclass(frozen=True, slots=True)
+class SearchProgress:
+    """How far a search is, and the best design so far. Runs count from 1."""
+
+    run: int
+    runs: int
+    episodes: int
+    """Episodes so far."""
+    budget: int
+    mean: float
+    """The mean return of the best design so far, in episodes that took no part in choosing it."""
+    measured: int
+    """The number of these episodes."""
+    is_answer: bool
+    """Whether the run has ended, and the best is its answer."""
+    rival: str = ""
+    """The method, where it is a rival's."""
+
+    @property
+    def done(self) -> int:
+        """What is done of a run, in episodes."""
+        return self.budget if self.is_answer else min(self.episodes, self.budget - 1)
+
+    @property
+    def total(self) -> int:
+        """What a run consists of, in episodes."""
+        return self.budget
+
+
+@dataclass(frozen=True, slots=True)
+class Designed:
+    """The result of a design."""
+
+    architecture: Path
+    """The file of the designed spec."""
+    folder: Path
+    """The folder of all files of the design."""
+    method: str
+    """The method that searched."""
+    structure: tuple[str, ...]
+    """The names of the behaviors, highest layer first."""
+    evaluation: Evaluation
+    """Its evaluation on episodes that took no part in choosing it."""
+    lifetime: Interval | None
+    """The lifetime fitness of agents that have its behaviors and its structure at birth, and learn.
+
+    None for methods that have no lifetimes.
+    """
+    random: Interval
+    """The mean return of random agents, for comparison."""
+    seconds: float
+    """How long the design took."""
+    selection: Selection
+    """What selection among random agents has to work on."""
+    spent: int
+    """The episodes of all runs."""
+    each: tuple[tuple[Interval, tuple[str, ...]], ...]
+    """The mean return of each run's answer on the same new episodes, and its structure; none of a single run."""
+    rivals: tuple[Rival, ...]
+    """What other methods achieved with the same budget."""
+    first_reward: int | None
+    """Where all random agents earn the same: the episodes after which the search had a better design."""
+    unvisited: tuple[Unvisited, ...]
+    """Behaviors that have open cells which no candidate's episodes visited."""
+
+    @property
+    def mean(self) -> float:
+        """The mean return of the design."""
+        return self.evaluation.mean
+
+    @property
+    def sd(self) -> float:
+        """The standard deviation of the return."""
+        return self.evaluation.sd
+
+    @property
+    def ci95(self) -> tuple[float, float]:
+        """The 95 % interval of the mean return."""
+        return self.evaluation.ci95
+
+    @property
+    def episodes(self) -> int:
+        """The number of episodes of its evaluation."""
+        return self.evaluation.episodes
