@@ -16,7 +16,7 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.climb import Climb, advance_climb, begin_climb
-from bbsd.solver.methods import cross_entropy, joint, practice, q_learning, random_search, societies
+from bbsd.solver.methods import cross_entropy, practice, q_learning, random_search, societies
 from bbsd.solver.methods.method import Method, SearchState, with_champions
 from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
 from bbsd.solver.space import Designs
@@ -37,7 +37,7 @@ OPENINGS = (
 FEW = 60_000
 FEW_OPENINGS = (
     (random_search.METHOD, 0.02),
-    (joint.METHOD, 0.25),
+    (societies.METHOD, 0.22),
     (q_learning.METHOD, 0.35),
 )
 """With a budget below that, those that need the fewest episodes."""
