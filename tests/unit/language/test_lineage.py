@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.api import designed_text
-from bbsd.architecture import given_architecture
+from bbsd.architecture import designed_text, given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.errors import SpecError
 from bbsd.language import lineage
