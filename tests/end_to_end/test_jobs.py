@@ -158,7 +158,7 @@ def test_a_reward_that_is_not_finite_is_told_once_at_its_place(tmp_path):
     (tmp_path / "odd.yaml").write_text(
         SPEC.read_text().replace("  gas: -0.25 * heating", "  gas: 1 / (step - 9)")
     )
-    code, out, err = ended("odd.yaml", "--runs", 3, "--jobs", 3, "--out", "run", cwd=tmp_path)
+    code, out, err = ended("odd.yaml", "--runs", 3, "--jobs", 3, "--out", "run", "-q", cwd=tmp_path)
     assert (code, out) == (2, "")
     assert err.startswith("odd.yaml:")
     assert "error[BB045]: the reward term gas was inf in step 9 for robot 0" in err
