@@ -10,6 +10,8 @@ from bbsd.report.size import size_text
 from bbsd.text import Source
 from experiments.optimum import optimum
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 SPECS = ROOT / "specs"
 TEXT = (ROOT / "docs" / "tasks.md").read_text(encoding="utf-8")

@@ -8,6 +8,8 @@ from bbsd.runs.storage.state import Searching
 from bbsd.solver.methods.registry import METHODS
 from tests.unit.runs.commands import search_of
 
+pytestmark = pytest.mark.slow
+
 BUDGETS = (6000, 5000)
 
 

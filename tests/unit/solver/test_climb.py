@@ -13,6 +13,8 @@ from bbsd.solver.space import Designs
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 
+pytestmark = pytest.mark.slow
+
 PATH = """
 bbsd: 1
 name: path

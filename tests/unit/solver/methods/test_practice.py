@@ -9,6 +9,8 @@ from bbsd.solver.methods.practice import METHOD, PUPILS, RUNGS
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 
+pytestmark = pytest.mark.slow
+
 FAR = """
 bbsd: 1
 name: far

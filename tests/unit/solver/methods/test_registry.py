@@ -15,6 +15,8 @@ from bbsd.solver.structures import OPEN
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 
+pytestmark = pytest.mark.slow
+
 RULES_ONLY = """
 bbsd: 1
 name: rules only
