@@ -14,7 +14,6 @@ from bbsd.solver.space import Designs
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bbsd.architecture import Architecture
     from bbsd.solver.arena import Arena
     from bbsd.solver.methods.method import Method, SearchState
 
@@ -73,8 +72,3 @@ def final_race(
     means = earned.mean(axis=1) if earned.shape[1] else np.zeros(len(running))
     best = int(np.argmax(means))
     return Answer(running[best : best + 1], float(means[best]), spent)
-
-
-def architecture_of(answer: Answer, arena: Arena) -> Architecture:
-    """Return the design of an answer."""
-    return arena.space.architectures(answer.design)[0]

@@ -2,7 +2,7 @@
 
 Each search is good where another is not: cross-entropy and societies where returns tell designs apart, practice where
 nothing is earned until choices vary within an episode. All get an opening; the one whose best design earns most in
-common episodes gets a further run; then the best designs of all climb until no single change helps. Q-learning is left
+common episodes gets further runs; then the best designs of all climb until no single change helps. Q-learning is left
 out where its table would be too large.
 """
 
