@@ -13,9 +13,11 @@ from bbsd.evaluation import (
     Evaluation,
     Trace,
     agents_of,
+    chosen_episode,
     detailed_outcomes,
     enumerate_starts,
     evaluation,
+    returns_of,
     weighted_evaluation,
 )
 from bbsd.evaluation import trace as trace_episode
@@ -29,9 +31,12 @@ from bbsd.solver.random_agents import random_agents
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from numpy.typing import NDArray
+
     from bbsd.compiler import DetailedOutcome
-    from bbsd.evaluation import Agents
+    from bbsd.evaluation import Agents, Rank
     from bbsd.evaluation.episodes import Keys
+    from bbsd.language.loading import Loaded
 from bbsd.api.specs import AnySpec, load, located_reward_errors
 
 EVALUATION = name_word("evaluation")
@@ -108,19 +113,52 @@ def _reported(
         yield outcome
 
 
-def trace(spec: AnySpec, *, seed: int = 0, episode: int = 0, overrides: Sequence[str] = ()) -> Trace:
-    """Run one of the episodes of `evaluate`, by its number from 0, and return all values of each step.
+def trace(
+    spec: AnySpec,
+    *,
+    seed: int = 0,
+    episode: int | Rank = 0,
+    episodes: int = EPISODES_OF_DESIGN,
+    overrides: Sequence[str] = (),
+) -> Trace:
+    """Run one of the episodes of `evaluate`, and return all values of each step.
+
+    Args:
+        spec: A spec without holes.
+        seed: As in `evaluate`.
+        episode: Its number from 0, or "worst", "median" or "best" of the first `episodes`.
+        episodes: How many episodes to choose from.
+        overrides: Values that replace those of the spec.
 
     Raises:
         SpecError: with all mistakes of the spec.
         HolesLeft: the spec has holes.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
+    number = (
+        episode
+        if isinstance(episode, int)
+        else chosen_episode(episode_returns(loaded, episodes, seed), episode)
+    )
     problem = compile_meaning(loaded.meaning, compiled=False)
-    key = fold(fold(seed_key(seed), EVALUATION), word_of(episode))
+    key = fold(fold(seed_key(seed), EVALUATION), word_of(number))
     return trace_episode(
         problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
     )
+
+
+def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: int = 0) -> NDArray[np.float64]:
+    """Return the returns (n_episodes,) of the first episodes of `evaluate`.
+
+    Raises:
+        SpecError: a reward is not finite.
+        HolesLeft: the spec has holes.
+    """
+    problem = compile_meaning(loaded.meaning)
+    agent = agents_of([given_architecture(problem)])
+    streams = keys(fold(seed_key(seed), EVALUATION), 0, episodes)
+    with located_reward_errors(loaded):
+        return returns_of(problem, agent, streams, loaded.spec.design.coevolution.generations).ravel()
 
 
 def explain(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Explanation:

@@ -26,11 +26,14 @@ class Detail(Enum):
 IN_DETAIL = frozenset({Detail.TERMS, Detail.TRACE})
 """The rollouts that report what an evaluation adds up."""
 
+DECIDED: tuple[Literal["excited", "cell"], ...] = ("excited", "cell")
+"""What is recorded of every behavior's decision."""
+
 
 class Column(NamedTuple):
     """A column of a trace's record: the kind of its values, and the name, robot and element that they belong to."""
 
-    content: Literal["slot", "definition", "choice", "expectation", "reward"]
+    content: Literal["slot", "definition", "choice", "expectation", "reward", "excited", "cell"]
     slot: Slot
 
 
@@ -43,7 +46,20 @@ def traced_columns(meaning: Meaning) -> list[Column]:
         *(Column("choice", Slot("controlling", robot)) for robot in robots),
         *(Column("expectation", Slot("expectation", robot)) for robot in robots if episode.expects),
         *(Column("reward", Slot(term, robot)) for term in episode.reward for robot in robots),
+        *(
+            Column(content, Slot(module.name, robot))
+            for robot in robots
+            for module in episode.modules
+            for content in DECIDED
+        ),
     ]
+
+
+def first_decided_column(meaning: Meaning, robot: int) -> int:
+    """Return where in a record the columns of a robot's decisions begin; all robots' decisions stand last."""
+    robots = meaning.spec.environment.robots
+    n_decided = len(DECIDED) * len(meaning.episode.modules)
+    return len(traced_columns(meaning)) - (robots - robot) * n_decided
 
 
 def traced_definitions(episode: Episode) -> dict[Slot, Node]:

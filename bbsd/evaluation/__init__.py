@@ -1,6 +1,8 @@
 """Episodes of agents and of finished designs, and their statistics."""
 
 from bbsd.evaluation.agents import Agents, agents_of
+from bbsd.evaluation.choosing import RANKS, NoSuchEpisode, Rank, chosen_episode
+from bbsd.evaluation.decisions import Decisions
 from bbsd.evaluation.enumeration import NotEnumerable, enumerate_starts
 from bbsd.evaluation.episodes import detailed_outcomes, returns_of
 from bbsd.evaluation.finite import RewardNotFinite, require_finite
@@ -9,7 +11,7 @@ from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interva
 from bbsd.evaluation.tracing import Trace, trace
 
 __all__ = [
-    "Agents", "Evaluation", "Interval", "NotEnumerable", "RewardNotFinite", "Scene", "Trace", "agents_of",
-    "detailed_outcomes", "enumerate_starts", "evaluation", "interval", "require_finite", "returns_of", "trace",
-    "weighted_evaluation",
+    "RANKS", "Agents", "Decisions", "Evaluation", "Interval", "NoSuchEpisode", "NotEnumerable", "Rank",
+    "RewardNotFinite", "Scene", "Trace", "agents_of", "chosen_episode", "detailed_outcomes", "enumerate_starts",
+    "evaluation", "interval", "require_finite", "returns_of", "trace", "weighted_evaluation",
 ]  # fmt: skip

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.details import traced_columns
+from bbsd.evaluation.decisions import decisions_of
 from bbsd.evaluation.scene import Scene, scene, starting_values
 from bbsd.expression.node_data import Slot
 from bbsd.language.meaning.partitions import is_partition
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.compiler.details import Column
+    from bbsd.evaluation.decisions import Decisions
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.tables.labels import Labels
 
@@ -31,7 +33,8 @@ class Trace:
     """An episode as columns of equal length, one entry a step.
 
     `values` are world, state, sensors and definitions after the step, `controlling[robot]` the names of the controlling
-    behaviors, `actions[robot]` their actions, `rewards[term][robot]` what each term gave.
+    behaviors, `actions[robot]` their actions, `rewards[term][robot]` what each term gave, `decisions` what every
+    behavior perceived and wanted.
     """
 
     steps: npt.NDArray[np.int64]
@@ -40,6 +43,7 @@ class Trace:
     actions: list[list[str]]
     rewards: dict[str, list[Floats]]
     robots: int
+    decisions: Decisions
     expectations: list[list[str]] = field(default_factory=list)
     """For each robot whether the expectation of its controlling behavior `held` or `failed`, '' where it has none.
 
@@ -82,7 +86,8 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
     steps_taken = team.traced_episode(key, architecture.structure, record)
-    traced = _read(problem, columns, record[:steps_taken])
+    decisions = decisions_of(problem, architecture, columns, record[:steps_taken])
+    traced = _read(problem, columns, record[:steps_taken], decisions)
     return replace(traced, scene=_scene(traced, problem.meaning, key, generation))
 
 
@@ -95,7 +100,7 @@ def _scene(traced: Trace, meaning: Meaning, key: int, generation: int) -> Scene 
     return scene(meaning.episode.picture, moments, constants)
 
 
-def _read(problem: Problem, columns: list[Column], record: Floats) -> Trace:
+def _read(problem: Problem, columns: list[Column], record: Floats, decisions: Decisions) -> Trace:
     names = [("nobody", "")]
     names += [
         (behavior.name, action) for behavior in problem.meaning.episode.modules for action in behavior.actions
@@ -113,14 +118,14 @@ def _read(problem: Problem, columns: list[Column], record: Floats) -> Trace:
             expectations.append([EXPECTATION[int(number)] for number in column])
         elif content == "reward":
             rewards.setdefault(slot[0], []).append(column)
-        else:
+        elif content in {"slot", "definition"}:
             cells = _cells_of(problem, slot)
             values[slot] = (
                 [cells[int(value)] for value in column] if cells else [float(value) for value in column]
             )
     robots = problem.meaning.spec.environment.robots
     steps = np.arange(1, len(record) + 1)
-    return Trace(steps, values, controlling, actions, rewards, robots, expectations)
+    return Trace(steps, values, controlling, actions, rewards, robots, decisions, expectations)
 
 
 def _cells_of(problem: Problem, slot: Slot) -> Labels:

@@ -7,6 +7,7 @@ from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from bbsd.compiler.details import DECIDED, Detail, first_decided_column
 from bbsd.compiler.writing.emission import emitter_of
 from bbsd.compiler.writing.loop_fission import loop_lines
 from bbsd.compiler.writing.precedence import ATOM, Text, grouped, infix, name_text
@@ -127,8 +128,20 @@ class Arbitration:
         if self.practice is not None:
             highest = block.define(function.namer(function.robots_name("highest", robot)), highest, Kind.CELL)
             self._record_asked(self.practice, robot, highest, emitter, block)
+        if function.detail is Detail.TRACE:
+            self.record(robot, emitter, block)
         action = infix("&", highest, Text(str(ACTION_MASK)))
         block.define(function.actions[robot], action, Kind.CELL, function.episode.choices[robot])
+
+    def record(self, robot: int, emitter: Emitter, block: Block) -> None:
+        """Record whether each behavior is excited and which cell it is in, in the present step's row of a trace."""
+        function, first = self.function, first_decided_column(self.function.meaning, robot)
+        for index, module in enumerate(function.episode.modules):
+            excited = emitter.text(module.excited[robot], block)
+            cell = self._cell_asked(index, robot, emitter, block)
+            for offset, text in enumerate((excited, cell)):
+                column = first + len(DECIDED) * index + offset
+                block.store(f"record[step - 1, {column}]", text)
 
     def _bid(self, index: int, robot: int, emitter: Emitter, block: Block) -> tuple[Text, Text]:
         """Return whether a behavior is activated, and what it then bids for control: its priority and its choice."""

@@ -1,4 +1,4 @@
-from bbsd.compiler.details import checked_slots, traced_columns
+from bbsd.compiler.details import checked_slots, first_decided_column, traced_columns
 from tests.unit.problems import problem_of
 
 GUARD = """
@@ -31,6 +31,19 @@ def test_a_record_has_a_column_for_everything():
         ("expectation", ("expectation", 1, ())),
         ("reward", ("close", 0, ())),
         ("reward", ("close", 1, ())),
+        ("excited", ("wait", 0, ())),
+        ("cell", ("wait", 0, ())),
+        ("excited", ("wait", 1, ())),
+        ("cell", ("wait", 1, ())),
+    ]
+
+
+def test_the_decisions_of_a_robot_stand_together():
+    meaning = problem_of(GUARD).meaning
+    columns = traced_columns(meaning)
+    assert [columns[first_decided_column(meaning, robot)].slot for robot in (0, 1)] == [
+        ("wait", 0, ()),
+        ("wait", 1, ()),
     ]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bbsd.api import Designed
-from bbsd.evaluation import Evaluation, Interval, Trace
+from bbsd.evaluation import Decisions, Evaluation, Interval, Trace
 from bbsd.expression.node_data import Slot
 from bbsd.solver.judgement import Selection
 
@@ -63,4 +63,7 @@ def trace():
     controlling = [["push_more", "push_more", "stop_at_goal"], ["push_more", "nobody", "push_more"]]
     rewards = {"near_goal": [np.array([0.1, 0.2, 1.0]), np.array([0.1, 0.2, 0.3])]}
     actions = [["push", "push", "stop"], ["push", "", "push"]]
-    return Trace(np.arange(1, 4), values, controlling, actions, rewards, robots=2)
+    wishes = np.array([[[1, 0, 0], [1, 0, 0]], [[1, 0, 0], [0, 0, 0]], [[1, 1, 0], [1, 0, 0]]])
+    excited, who = np.ones((3, 2, 3), bool), np.array([[0, 0], [0, -1], [1, 0]])
+    decisions = Decisions(excited, np.zeros((3, 2, 3), np.int64), wishes, who)
+    return Trace(np.arange(1, 4), values, controlling, actions, rewards, robots=2, decisions=decisions)
