@@ -1,24 +1,50 @@
 """The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, explain.
 
-A spec is given as the path of its file, or as what `load` returned. `overrides` are texts such as
+A spec is given as the path of its file, as the folder of a run, which stands for the design that came out, or as what
+`load` returned. `overrides` are texts such as
 "design.coevolution.generations=10"; they replace values of the spec. `seed` is that of all random numbers: the same
 spec, overrides and seed give the same result. `lanes`, the episodes that a kernel runs side by side, and `jobs` affect
 only the speed.
 """
 
-from bbsd.api.designing import design, price
-from bbsd.api.evaluating import evaluate, explain, trace
-from bbsd.api.results import (
-    AnyProgress,
-    BestSoFar,
-    Designed,
-    Interrupted,
-    NoBudget,
-    NothingToDesign,
-    Progress,
-    SearchProgress,
-)
-from bbsd.api.specs import AnySpec, check, compile, load  # noqa: A004 - the verb
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bbsd.api.compiling import compile  # noqa: A004 - the verb
+    from bbsd.api.designing import design, price
+    from bbsd.api.evaluating import evaluate, trace
+    from bbsd.api.explaining import explain
+    from bbsd.api.results import (
+        AnyProgress,
+        BestSoFar,
+        Designed,
+        Interrupted,
+        NoBudget,
+        NothingToDesign,
+        Progress,
+        SearchProgress,
+    )
+    from bbsd.api.specs import AnySpec, check, load
+
+HOMES = {
+    "bbsd.api.compiling": ("compile",),
+    "bbsd.api.designing": ("design", "price"),
+    "bbsd.api.evaluating": ("evaluate", "trace"),
+    "bbsd.api.explaining": ("explain",),
+    "bbsd.api.results": (
+        "AnyProgress",
+        "BestSoFar",
+        "Designed",
+        "Interrupted",
+        "NoBudget",
+        "NothingToDesign",
+        "Progress",
+        "SearchProgress",
+    ),
+    "bbsd.api.specs": ("AnySpec", "check", "load"),
+}
+"""Where each name is from."""
 
 __all__ = [
     "AnyProgress",
@@ -39,3 +65,11 @@ __all__ = [
     "price",
     "trace",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """Return a verb, whose module is imported only then: what only reads a spec needs no compiler."""
+    for home, names in HOMES.items():
+        if name in names:
+            return getattr(import_module(home), name)
+    raise AttributeError(f"module 'bbsd.api' has no attribute {name!r}")

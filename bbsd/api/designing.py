@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
     from bbsd.runs.processes import Processes
     from bbsd.solver.paper.settings import Settings
+from bbsd.api.compiling import located_reward_errors
 from bbsd.api.results import (
     AnyProgress,
     BestSoFar,
@@ -45,7 +46,7 @@ from bbsd.api.results import (
     Progress,
     SearchProgress,
 )
-from bbsd.api.specs import AnySpec, load, located_reward_errors
+from bbsd.api.specs import AnySpec, load
 
 
 def design(

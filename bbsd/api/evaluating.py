@@ -1,4 +1,4 @@
-"""Evaluate, trace and explain a design."""
+"""Evaluate and trace a design."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from bbsd.evaluation import (
     weighted_evaluation,
 )
 from bbsd.evaluation import trace as trace_episode
-from bbsd.explanation import Explanation, explain_architecture
 from bbsd.kernel.keys import keys, own_keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.meaning import seed_key
@@ -37,7 +36,8 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Agents, Rank
     from bbsd.evaluation.episodes import Keys
     from bbsd.language.loading import Loaded
-from bbsd.api.specs import AnySpec, load, located_reward_errors
+from bbsd.api.compiling import located_reward_errors
+from bbsd.api.specs import AnySpec, load
 
 EVALUATION = name_word("evaluation")
 EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES
@@ -159,14 +159,3 @@ def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: in
     streams = keys(fold(seed_key(seed), EVALUATION), 0, episodes)
     with located_reward_errors(loaded):
         return returns_of(problem, agent, streams, loaded.spec.design.coevolution.generations).ravel()
-
-
-def explain(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Explanation:
-    """Describe in words what the design of a spec does, layer by layer.
-
-    Raises:
-        SpecError: with all mistakes of the spec.
-        HolesLeft: the spec has holes.
-    """
-    meaning = load(spec, seed=seed, overrides=overrides).meaning
-    return explain_architecture(meaning, given_architecture(compile_meaning(meaning)))

@@ -1,6 +1,12 @@
 """Architectures: given or learned tables and structure, their policy, and their text as a spec."""
 
-from bbsd.architecture.architecture import Architecture, HolesLeft, given_architecture, holes
+from bbsd.architecture.architecture import (
+    Architecture,
+    HolesLeft,
+    architecture_of,
+    given_architecture,
+    holes,
+)
 from bbsd.architecture.document import designed_text, require_writable
 from bbsd.architecture.policy import JointSpace, behavior_keys, joint_space, policy
 from bbsd.architecture.rules import rules_of
@@ -11,6 +17,7 @@ __all__ = [
     "Architecture",
     "HolesLeft",
     "JointSpace",
+    "architecture_of",
     "behavior_keys",
     "designed_text",
     "given_architecture",

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.compiler import Problem
+    from bbsd.language.meaning import Meaning
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,28 +33,38 @@ class HolesLeft(UsageError):
 
 
 def given_architecture(problem: Problem) -> Architecture:
-    """Return the architecture that a spec without holes gives.
+    """Return the architecture that a spec without holes gives; as `architecture_of`."""
+    return architecture_of(problem.meaning)
+
+
+def architecture_of(meaning: Meaning) -> Architecture:
+    """Return the architecture that the meaning of a spec without holes gives.
 
     Open cells of a behavior that the given structure leaves out are no holes; they become No Action.
 
     Raises:
         HolesLeft: something is open; the message says what.
     """
-    if descriptions := holes(problem):
+    if descriptions := _holes(meaning):
         raise HolesLeft(f"the design has holes: {'; '.join(descriptions)}")
-    tables = [
-        np.where(table.given == OPEN_CELL, NO_ACTION, table.given).astype(np.uint8)
-        for table in problem.tables
-    ]
-    return Architecture(tuple(tables), problem.layers)
+    given = [np.frombuffer(module.table.given, np.uint8) for module in meaning.episode.modules]
+    tables = tuple(np.where(cells == OPEN_CELL, np.uint8(NO_ACTION), cells) for cells in given)
+    return Architecture(tables, np.array(meaning.structure.layers, np.int64))
 
 
 def holes(problem: Problem) -> list[str]:
     """Return what a spec leaves open, in words: `stop: 2 of 2 cells open`, `5 of 5 layers open`."""
-    layers = problem.layers.tolist()
+    return _holes(problem.meaning)
+
+
+def _holes(meaning: Meaning) -> list[str]:
+    layers = meaning.structure.layers
     n_open = layers.count(OPEN_LAYER)
-    evolved = [table for index, table in enumerate(problem.tables) if problem.evolves(index)]
-    cells = [f"{table.name}: {table.n_open} of {_counted(table.n_cells, 'cell')} open" for table in evolved]
+    cells = [
+        f"{module.name}: {module.table.given.count(OPEN_CELL)} of {_counted(module.n_cells, 'cell')} open"
+        for index, module in enumerate(meaning.episode.modules)
+        if module.table.is_open and meaning.structure.may_hold(index)
+    ]
     return cells + ([f"{n_open} of {_counted(len(layers), 'layer')} open"] if n_open else [])
 
 

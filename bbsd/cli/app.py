@@ -13,12 +13,12 @@ from bbsd.cli.config import config
 from bbsd.cli.design import design
 from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
-from bbsd.cli.explain import explain
 from bbsd.cli.fmt import fmt
 from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
+from bbsd.cli.understanding.explain import explain
 from bbsd.version import __version__
 
 GC_THRESHOLD = 100_000

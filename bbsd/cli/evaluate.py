@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson, Jobs, Lanes, Overrides, Seed, SpecFile
+from bbsd.cli.options import AsJson, DesignFile, Jobs, Lanes, Overrides, Seed
 from bbsd.cli.output import error_console, has_blocks, require_writable_file, say, show, show_table
 from bbsd.errors import UsageError
 from bbsd.files import write_text_whole
@@ -37,7 +37,7 @@ class Fill(StrEnum):
 
 
 def evaluate(
-    spec: SpecFile,
+    spec: DesignFile,
     episodes: Annotated[
         int | None,
         typer.Option(

@@ -36,6 +36,16 @@ SpecFile = Annotated[
     ),
 ]
 
+DesignFile = Annotated[
+    Path,
+    typer.Argument(
+        metavar="DESIGN",
+        help="The design: a spec without holes, as a YAML file, or the folder of a run.",
+        show_default=False,
+        autocompletion=spec_files,
+    ),
+]
+
 Seed = Annotated[
     int,
     typer.Option(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.files import move, write_text_whole, write_whole
 from bbsd.runs.storage.census import TABLES
+from bbsd.runs.storage.finished import ARCHITECTURE, BEST, RUN_FILE, SPEC, run_content
 from bbsd.runs.storage.records import METRICS, FolderError, Records
 from bbsd.version import REVISION, __version__
 
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 
 FORMAT = 3
 """The format of `run.json`."""
-SPEC, LOCK = "spec.yaml", "lock"
-"""Files that are made before `run.json`."""
+LOCK = "lock"
+"""A file that is made before `run.json`, as the spec is."""
 DIGEST = "architecture_sha256"
 """The key of a result under which the digest of the designed spec stands."""
 
@@ -37,12 +38,12 @@ class Folder:
     @property
     def architecture(self) -> Path:
         """The file of the designed spec."""
-        return self.path / "architecture.yaml"
+        return self.path / ARCHITECTURE
 
     @property
     def best(self) -> Path:
         """The file of the best design so far, while there is no answer."""
-        return self.path / "best.yaml"
+        return self.path / BEST
 
     @property
     def metrics(self) -> Path:
@@ -52,7 +53,7 @@ class Folder:
     @property
     def run_file(self) -> Path:
         """The file that says what was run, with what, and with which result."""
-        return self.path / "run.json"
+        return self.path / RUN_FILE
 
     def records(self, run: int, n_runs: int) -> Records:
         """Return the records of a run, which counts from 0: in the folder itself where it is the only one."""
@@ -148,11 +149,7 @@ class Folder:
 
     def read_run_file(self) -> dict[str, Any]:
         """Return the content of `run.json`, empty where there is none or it is damaged."""
-        try:
-            content = json.loads(self.run_file.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return {}
-        return content if isinstance(content, dict) else {}
+        return run_content(self.path)
 
     def holds(self, who: Identity) -> bool:
         """Return whether this is the folder of that design, by this version and revision."""

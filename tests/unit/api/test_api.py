@@ -1,4 +1,6 @@
 import json
+import subprocess
+import sys
 from itertools import pairwise
 from pathlib import Path
 
@@ -271,6 +273,20 @@ def test_an_explanation_needs_a_design(designed):
     with pytest.raises(HolesLeft):
         bbsd.api.explain(SPEC)
     assert bbsd.api.explain(designed[0].architecture) is not None
+
+
+def test_a_run_stands_for_its_design(designed):
+    found, _ = designed
+    assert bbsd.api.load(found.folder).data == bbsd.api.load(found.architecture).data
+    by_folder, by_file = (
+        bbsd.api.evaluate(each, episodes=5) for each in (str(found.folder), found.architecture)
+    )
+    assert by_folder.mean == by_file.mean
+
+
+def test_what_needs_no_compiler_imports_none(designed):
+    program = f"import sys, bbsd\nbbsd.explain({str(designed[0].folder)!r})\nsys.exit('numba' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
 
 
 def test_a_design_leads_no_editor_to_a_schema_that_is_not_there(designed, tmp_path):

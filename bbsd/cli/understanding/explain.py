@@ -1,13 +1,13 @@
 """`bbsd explain`."""
 
 import bbsd
-from bbsd.cli.options import AsFormat, Overrides, ResultFormat, Seed, SpecFile
+from bbsd.cli.options import AsFormat, DesignFile, Overrides, ResultFormat, Seed
 from bbsd.cli.output import show
 from bbsd.report.plain import json_text
 
 
 def explain(
-    spec: SpecFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = ResultFormat.TEXT
+    spec: DesignFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = ResultFormat.TEXT
 ) -> None:
     """Describe in words what a design does, layer by layer."""
     from bbsd.explanation import explanation_text

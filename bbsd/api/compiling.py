@@ -1,0 +1,37 @@
+"""Compile a spec, and point at the place in it where a kernel found something wrong."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from bbsd.api.specs import AnySpec, load
+from bbsd.compiler import Detail, compile_meaning, kernel_source
+from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.errors import Diagnosis
+from bbsd.evaluation import RewardNotFinite
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from bbsd.language.loading import Loaded
+
+
+def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
+    """Return the Python source of a spec's kernel: a rollout for the solver and one for evaluation.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+    """
+    problem = compile_meaning(load(spec, overrides=overrides).meaning)
+    return kernel_source(problem.meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
+
+
+@contextmanager
+def located_reward_errors(loaded: Loaded) -> Iterator[None]:
+    """Turn a RewardNotFinite into a SpecError at the place of the reward term in the spec."""
+    try:
+        yield
+    except RewardNotFinite as error:
+        place = loaded.lineage.place(("reward", error.term))
+        raise loaded.lineage.error([Diagnosis("BB045", str(error), place)]) from None

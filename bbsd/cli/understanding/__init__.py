@@ -1,0 +1,1 @@
+"""The commands that say why a design does what it does."""

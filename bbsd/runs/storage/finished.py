@@ -1,0 +1,76 @@
+"""The finished design of a run, found by its folder; reading it takes no time, since no method is imported."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from typing import TYPE_CHECKING, Any
+
+from bbsd.errors import UsageError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+ARCHITECTURE, BEST, RUN_FILE = "architecture.yaml", "best.yaml", "run.json"
+"""Files of a run: the designed spec, the best so far while there is no answer, and what was run."""
+SPEC = "spec.yaml"
+"""The spec as it was when the design began."""
+MOST_NAMED = 3
+"""Runs inside a folder that are named, at most."""
+
+
+class NoDesign(UsageError):
+    """A folder that holds no finished design; `advice` says how to go on."""
+
+    def __init__(self, message: str, advice: str) -> None:
+        super().__init__(message)
+        self.advice = advice
+
+
+def design_file(path: Path) -> Path:
+    """Return the file of a design: of a run's folder its designed spec, else the path itself.
+
+    Raises NoDesign for a folder that is no run, or a run without an answer.
+    """
+    if not path.is_dir():
+        return path
+    architecture = path / ARCHITECTURE
+    if architecture.is_file():
+        return architecture
+    if (path / RUN_FILE).is_file():
+        raise NoDesign(f"the run in {path} has no answer yet: there is no {architecture}", _way_on(path))
+    raise NoDesign(
+        f"{path} is a folder, and not that of a run: a run has the files {ARCHITECTURE} and {RUN_FILE}",
+        _other_choices(path),
+    )
+
+
+def run_content(path: Path) -> dict[str, Any]:
+    """Return what a run's folder says of the run, empty where that is missing or damaged."""
+    try:
+        content = json.loads((path / RUN_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def _way_on(path: Path) -> str:
+    """Return how a run without an answer is continued, and what there is of it until then."""
+    content = run_content(path)
+    runs, overrides = content.get("runs", 1), content.get("set", [])
+    words = ["bbsd", "design", str(path / SPEC), "--resume", "--out", str(path)]
+    words += ["--seed", str(content.get("seed", 0)), *(["--runs", str(runs)] if runs != 1 else [])]
+    for override in overrides if isinstance(overrides, list) else []:
+        words += ["--set", str(override)]
+    best = path / BEST
+    meanwhile = f"; or look at its best design so far, {best}" if best.is_file() else ""
+    return f"continue it: {shlex.join(words)}{meanwhile}"
+
+
+def _other_choices(path: Path) -> str:
+    """Return what to give instead of a folder that is no run: one of the runs in it, where there are some."""
+    inside = sorted(file.parent for file in path.glob(f"*/{ARCHITECTURE}"))
+    if not inside:
+        return "give the file of a design, or the folder that bbsd design wrote"
+    more = f" and {len(inside) - MOST_NAMED} more" if len(inside) > MOST_NAMED else ""
+    return f"give one of the runs in it: {', '.join(map(str, inside[:MOST_NAMED]))}{more}"
