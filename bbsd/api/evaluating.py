@@ -16,14 +16,16 @@ from bbsd.evaluation import (
     chosen_episode,
     detailed_outcomes,
     enumerate_starts,
+    episode_key,
     evaluation,
+    evaluation_key,
+    evaluation_keys,
     returns_of,
     weighted_evaluation,
 )
 from bbsd.evaluation import trace as trace_episode
-from bbsd.kernel.keys import keys, own_keys
-from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.language.meaning import seed_key
+from bbsd.kernel.keys import own_keys
+from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.judgement import RANDOM_EPISODES
 from bbsd.solver.random_agents import random_agents
 
@@ -39,7 +41,6 @@ if TYPE_CHECKING:
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.specs import AnySpec, load
 
-EVALUATION = name_word("evaluation")
 EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES
 """Numbers of episodes in an evaluation by default: of a design, and of each random agent, as after a design."""
 
@@ -80,7 +81,7 @@ def evaluate(
     loaded = load(spec, seed=seed, overrides=overrides)
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
-    key = fold(seed_key(seed), EVALUATION)
+    key = evaluation_key(seed)
     with located_reward_errors(loaded):
         if fill == "random":
             fillings = random_agents(problem, fold(key, name_word("agents")), agents)
@@ -93,7 +94,7 @@ def evaluate(
             return weighted_evaluation(
                 problem, _reported(problem, agent, starts, generation, progress), weights
             )
-        streams = keys(key, 0, episodes or EPISODES_OF_DESIGN)
+        streams = evaluation_keys(seed, episodes or EPISODES_OF_DESIGN)
         return evaluation(problem, _reported(problem, agent, streams, generation, progress), 1)
 
 
@@ -141,7 +142,7 @@ def trace(
         else chosen_episode(episode_returns(loaded, episodes, seed), episode)
     )
     problem = compile_meaning(loaded.meaning, compiled=False)
-    key = fold(fold(seed_key(seed), EVALUATION), word_of(number))
+    key = episode_key(seed, number)
     return trace_episode(
         problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
     )
@@ -156,6 +157,6 @@ def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: in
     """
     problem = compile_meaning(loaded.meaning)
     agent = agents_of([given_architecture(problem)])
-    streams = keys(fold(seed_key(seed), EVALUATION), 0, episodes)
+    streams = evaluation_keys(seed, episodes)
     with located_reward_errors(loaded):
         return returns_of(problem, agent, streams, loaded.spec.design.coevolution.generations).ravel()

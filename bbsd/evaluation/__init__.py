@@ -6,12 +6,15 @@ from bbsd.evaluation.decisions import Decisions
 from bbsd.evaluation.enumeration import NotEnumerable, enumerate_starts
 from bbsd.evaluation.episodes import detailed_outcomes, returns_of
 from bbsd.evaluation.finite import RewardNotFinite, require_finite
+from bbsd.evaluation.paired import PairedEpisodes, paired_episodes
 from bbsd.evaluation.scene import Scene
 from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interval, weighted_evaluation
+from bbsd.evaluation.streams import episode_key, evaluation_key, evaluation_keys
 from bbsd.evaluation.tracing import Trace, trace
 
 __all__ = [
-    "RANKS", "Agents", "Decisions", "Evaluation", "Interval", "NoSuchEpisode", "NotEnumerable", "Rank",
-    "RewardNotFinite", "Scene", "Trace", "agents_of", "chosen_episode", "detailed_outcomes", "enumerate_starts",
-    "evaluation", "interval", "require_finite", "returns_of", "trace", "weighted_evaluation",
+    "RANKS", "Agents", "Decisions", "Evaluation", "Interval", "NoSuchEpisode", "NotEnumerable", "PairedEpisodes",
+    "Rank", "RewardNotFinite", "Scene", "Trace", "agents_of", "chosen_episode", "detailed_outcomes", "enumerate_starts",
+    "episode_key", "evaluation", "evaluation_key", "evaluation_keys", "interval", "paired_episodes", "require_finite",
+    "returns_of", "trace", "weighted_evaluation",
 ]  # fmt: skip

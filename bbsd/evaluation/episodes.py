@@ -28,7 +28,7 @@ def returns_of(problem: Problem, agents: Agents, keys: Keys, generation: int) ->
     Keys (n_episodes,) name episodes that all agents have, keys (n_agents, n_episodes) each agent's own.
     """
     returns = np.empty(len(agents) * keys.shape[-1])
-    for lanes, batch, streams in _batches(agents, keys):
+    for lanes, batch, streams in batches_of(agents, keys):
         team = problem.assemble(agents.pools, batch.members, generation)
         returns[lanes] = team.episode(streams, batch.structures).returns
         require_finite(problem, batch, streams, returns[lanes], generation)
@@ -39,14 +39,15 @@ def detailed_outcomes(
     problem: Problem, agents: Agents, keys: Keys, generation: int
 ) -> Iterator[DetailedOutcome]:
     """Yield the outcomes of the same episodes in detail, batch by batch, agent after agent."""
-    for _, batch, streams in _batches(agents, keys):
+    for _, batch, streams in batches_of(agents, keys):
         team = problem.assemble(agents.pools, batch.members, generation)
         outcome = team.detailed_episode(streams, batch.structures)
         require_finite(problem, batch, streams, outcome.returns, generation)
         yield outcome
 
 
-def _batches(agents: Agents, keys: Keys) -> Iterator[tuple[slice, Agents, Keys]]:
+def batches_of(agents: Agents, keys: Keys) -> Iterator[tuple[slice, Agents, Keys]]:
+    """Yield the lanes of each batch, agent after agent, with their agents and the keys of their episodes."""
     n_episodes = keys.shape[-1]
     total = len(agents) * n_episodes
     for first in range(0, total, BATCH):
