@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from bbsd.architecture import designed_text, require_writable, tidy_tables
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.evaluation.visits import visits_after_design
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
 from bbsd.runs.interim import best_so_far
@@ -23,6 +24,7 @@ from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.storage.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
 from bbsd.runs.storage.identity import Identity, identity
 from bbsd.runs.storage.lock import only_writer
+from bbsd.runs.storage.visits import write_visits
 from bbsd.runs.visits import unvisited
 from bbsd.solver.budget import automatic_budget
 from bbsd.solver.judgement import Selection, judge
@@ -118,9 +120,12 @@ def design(
             answers = complete_runs(command, jobs, listener, ready)
             judged = judge(answers, problem, settings, seed)
             missed = unvisited(command)
+            designed = tidy_tables(problem.meaning, judged.architecture)
+            visits = visits_after_design(problem, designed, seed, has_kernel=settings.method != "paper")
         folder.gather(runs)
-        text = designed_text(loaded, tidy_tables(problem.meaning, judged.architecture))
+        text = designed_text(loaded, designed)
         folder.write_architecture(text)
+        write_visits(folder.path, text, problem.names, visits)
         names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
         result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
         folder.write_run_file(run_identity, overrides, budgets, result)

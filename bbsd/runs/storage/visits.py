@@ -1,0 +1,78 @@
+"""`visits.json`: how often cells of a run's design were asked and controlled; so explaining it runs no episodes."""
+
+from __future__ import annotations
+
+import json
+from hashlib import sha256
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bbsd.architecture.visits import Visits
+from bbsd.files import write_text_whole
+from bbsd.runs.storage.finished import ARCHITECTURE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    Counts = NDArray[np.int64]
+
+FILE, FORMAT = "visits.json", 1
+DIGEST = "architecture_sha256"
+
+
+def write_visits(folder: Path, text: str, names: Sequence[str], visits: Visits) -> None:
+    """Write the visits of a run's design, whose file has this text; a line for each behavior."""
+    head = {
+        "format": FORMAT,
+        DIGEST: sha256(text.encode()).hexdigest(),
+        "episodes": visits.episodes,
+        "robot_steps": visits.robot_steps,
+    }
+    behaviors = ",\n".join(
+        f"    {json.dumps(name)}: {json.dumps(_plain(asked, controlled))}"
+        for name, asked, controlled in zip(names, visits.asked, visits.controlled, strict=True)
+    )
+    lines = [f"  {json.dumps(key)}: {json.dumps(value)}," for key, value in head.items()]
+    content = "\n".join(["{", *lines, '  "behaviors": {', behaviors, "  }", "}", ""])
+    write_text_whole(folder / FILE, content)
+
+
+def _plain(asked: Counts, controlled: Counts) -> dict[str, Any]:
+    """Return the cells that were asked, each with the counts asked and controlled."""
+    cells = np.flatnonzero(asked).tolist()
+    return {
+        "cells": len(asked),
+        "asked": {str(cell): [int(asked[cell]), int(controlled[cell])] for cell in cells},
+    }
+
+
+def read_visits(folder: Path, names: Sequence[str]) -> Visits | None:
+    """Return the visits of a run's design; None where there are none, or its file was changed since."""
+    try:
+        content = json.loads((folder / FILE).read_text(encoding="utf-8"))
+        if content["format"] != FORMAT or content[DIGEST] != _digest(folder / ARCHITECTURE):
+            return None
+        counts = [_counts(content["behaviors"][name]) for name in names]
+        return Visits(
+            int(content["episodes"]),
+            int(content["robot_steps"]),
+            tuple(asked for asked, _ in counts),
+            tuple(controlled for _, controlled in counts),
+        )
+    except (OSError, ValueError, KeyError, TypeError, IndexError):
+        return None
+
+
+def _counts(plain: Mapping[str, Any]) -> tuple[Counts, Counts]:
+    asked, controlled = np.zeros((2, int(plain["cells"])), np.int64)
+    for cell, (n_asked, n_controlled) in plain["asked"].items():
+        asked[int(cell)], controlled[int(cell)] = n_asked, n_controlled
+    return asked, controlled
+
+
+def _digest(path: Path) -> str:
+    return sha256(path.read_bytes()).hexdigest()
