@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from bbsd.api.compiling import compile  # noqa: A004 - the verb
     from bbsd.api.designing import design, price
-    from bbsd.api.evaluating import evaluate, trace
+    from bbsd.api.evaluating import evaluate
     from bbsd.api.explaining import explain
     from bbsd.api.results import (
         AnyProgress,
@@ -26,11 +26,12 @@ if TYPE_CHECKING:
         SearchProgress,
     )
     from bbsd.api.specs import AnySpec, check, load
+    from bbsd.api.tracing import trace
 
 HOMES = {
     "bbsd.api.compiling": ("compile",),
     "bbsd.api.designing": ("design", "price"),
-    "bbsd.api.evaluating": ("evaluate", "trace"),
+    "bbsd.api.evaluating": ("evaluate",),
     "bbsd.api.explaining": ("explain",),
     "bbsd.api.results": (
         "AnyProgress",
@@ -43,6 +44,7 @@ HOMES = {
         "SearchProgress",
     ),
     "bbsd.api.specs": ("AnySpec", "check", "load"),
+    "bbsd.api.tracing": ("trace",),
 }
 """Where each name is from."""
 

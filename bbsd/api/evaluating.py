@@ -1,4 +1,4 @@
-"""Evaluate and trace a design."""
+"""Evaluate a design."""
 
 from __future__ import annotations
 
@@ -11,19 +11,14 @@ from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.evaluation import (
     Evaluation,
-    Trace,
     agents_of,
-    chosen_episode,
     detailed_outcomes,
     enumerate_starts,
-    episode_key,
     evaluation,
     evaluation_key,
     evaluation_keys,
-    returns_of,
     weighted_evaluation,
 )
-from bbsd.evaluation import trace as trace_episode
 from bbsd.kernel.keys import own_keys
 from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.judgement import RANDOM_EPISODES
@@ -32,17 +27,15 @@ from bbsd.solver.random_agents import random_agents
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from numpy.typing import NDArray
-
     from bbsd.compiler import DetailedOutcome
-    from bbsd.evaluation import Agents, Rank
+    from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
-    from bbsd.language.loading import Loaded
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.specs import AnySpec, load
+from bbsd.api.tracing import EPISODES_OF_DESIGN
 
-EPISODES_OF_DESIGN, EPISODES_OF_RANDOM_AGENT = 1000, RANDOM_EPISODES
-"""Numbers of episodes in an evaluation by default: of a design, and of each random agent, as after a design."""
+EPISODES_OF_RANDOM_AGENT = RANDOM_EPISODES
+"""Episodes of each random agent by default, as after a design."""
 
 
 def evaluate(
@@ -112,51 +105,3 @@ def _reported(
         if progress is not None:
             progress(done, total)
         yield outcome
-
-
-def trace(
-    spec: AnySpec,
-    *,
-    seed: int = 0,
-    episode: int | Rank = 0,
-    episodes: int = EPISODES_OF_DESIGN,
-    overrides: Sequence[str] = (),
-) -> Trace:
-    """Run one of the episodes of `evaluate`, and return all values of each step.
-
-    Args:
-        spec: A spec without holes.
-        seed: As in `evaluate`.
-        episode: Its number from 0, or "worst", "median" or "best" of the first `episodes`.
-        episodes: How many episodes to choose from.
-        overrides: Values that replace those of the spec.
-
-    Raises:
-        SpecError: with all mistakes of the spec.
-        HolesLeft: the spec has holes.
-    """
-    loaded = load(spec, seed=seed, overrides=overrides)
-    number = (
-        episode
-        if isinstance(episode, int)
-        else chosen_episode(episode_returns(loaded, episodes, seed), episode)
-    )
-    problem = compile_meaning(loaded.meaning, compiled=False)
-    key = episode_key(seed, number)
-    return trace_episode(
-        problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
-    )
-
-
-def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: int = 0) -> NDArray[np.float64]:
-    """Return the returns (n_episodes,) of the first episodes of `evaluate`.
-
-    Raises:
-        SpecError: a reward is not finite.
-        HolesLeft: the spec has holes.
-    """
-    problem = compile_meaning(loaded.meaning)
-    agent = agents_of([given_architecture(problem)])
-    streams = evaluation_keys(seed, episodes)
-    with located_reward_errors(loaded):
-        return returns_of(problem, agent, streams, loaded.spec.design.coevolution.generations).ravel()

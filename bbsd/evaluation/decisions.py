@@ -8,11 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.language.models import NO_ACTION_TEXT
+
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Column, Problem
+    from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.meaning.tables.labels import Labels
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,6 +33,37 @@ class Decisions:
     """The number of the action that its table has in that cell, from 1; 0 is No Action."""
     controlling: NDArray[np.int64]
     """(n_steps, n_robots): the index of the behavior, -1 where nobody controls."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """The names of what a layer's behavior perceives and does."""
+
+    behavior: str
+    index: int
+    """The behavior's place in the spec's order, by which decisions are indexed."""
+    inputs: Mapping[str, Labels]
+    actions: tuple[str, ...]
+
+    def cell_labels(self, cell: int) -> dict[str, str]:
+        """Return the label of each input in a cell of the behavior's table."""
+        labels = dict[str, str]()
+        for name, cells in reversed([*self.inputs.items()]):
+            cell, place = divmod(cell, len(cells))
+            labels[name] = cells[place]
+        return dict(reversed(labels.items()))
+
+    def wish(self, number: int) -> str:
+        """Return the name of an action by its number in the table, `no action` for 0."""
+        return self.actions[number - 1] if number else NO_ACTION_TEXT
+
+
+def layers_of(modules: Sequence[Module], structure: NDArray[np.int64]) -> tuple[Layer, ...]:
+    """Return the layers of a structure (n_layers,), highest first."""
+    return tuple(
+        Layer(modules[index].name, index, modules[index].inputs, (*modules[index].actions,))
+        for index in reversed(structure.tolist())
+    )
 
 
 def decisions_of(

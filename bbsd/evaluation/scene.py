@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.picture import Picture
 
-    Stored = Mapping[Slot, float | str]
+    Stored = Mapping[Slot, float]
 
 Floats = npt.NDArray[np.float64]
 
@@ -46,11 +46,11 @@ def scene(picture: Picture, moments: Sequence[Stored], constants: Sequence[float
     """Evaluate a picture at moments of an episode, the start first."""
 
     def over_time(nodes: Sequence[Node]) -> Floats:
-        return np.array([_values(nodes, stored, step, constants) for step, stored in enumerate(moments)])
+        return np.array([values_of(nodes, stored, step, constants) for step, stored in enumerate(moments)])
 
     def at_the_end(rows: Sequence[Sequence[Node]], width: int) -> Floats:
         nodes = [node for row in rows for node in row]
-        return np.array(_values(nodes, moments[-1], len(moments) - 1, constants)).reshape(len(rows), width)
+        return np.array(values_of(nodes, moments[-1], len(moments) - 1, constants)).reshape(len(rows), width)
 
     headings = None if picture.headings is None else over_time(picture.headings).T
     return Scene(
@@ -76,8 +76,8 @@ def starting_values(meaning: Meaning, key: int, constants: Sequence[float]) -> d
         return {slot: float(value) for slot, value in zip(start, evaluate(start.values(), leaf), strict=True)}
 
 
-def _values(nodes: Sequence[Node], stored: Stored, step: int, constants: Sequence[float]) -> list[float]:
-    """Return the values of nodes that read stored values; truths are stored as 0 and 1."""
+def values_of(nodes: Sequence[Node], stored: Stored, step: int, constants: Sequence[float]) -> list[float]:
+    """Return the values of nodes that read what is stored before a step, or after; truths are stored as 0 and 1."""
 
     def leaf(node: Node, operands: list[Any]) -> Any:  # noqa: ANN401 - a number or a truth
         match node.operation:

@@ -3,29 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from math import isfinite
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.details import traced_columns
-from bbsd.evaluation.decisions import decisions_of
-from bbsd.evaluation.scene import Scene, scene, starting_values
-from bbsd.expression.node_data import Slot
+from bbsd.evaluation.decisions import decisions_of, layers_of
+from bbsd.evaluation.scene import scene, starting_values, values_of
+from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.partitions import is_partition
+from bbsd.language.meaning.situation import definitions_at_the_start
+from bbsd.language.meaning.whole_numbers import whole_values
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.compiler.details import Column
-    from bbsd.evaluation.decisions import Decisions
+    from bbsd.evaluation.decisions import Decisions, Layer
+    from bbsd.evaluation.scene import Scene
+    from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.tables.labels import Labels
 
 EXPECTATION = ("", "failed", "held")
 """The meaning of the numbers 0, 1, 2 in a record."""
 
 Floats = npt.NDArray[np.float64]
+Value: TypeAlias = float | int | bool | str
+"""A number, a whole number, a truth, or the label of a cell."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,16 +42,20 @@ class Trace:
 
     `values` are world, state, sensors and definitions after the step, `controlling[robot]` the names of the controlling
     behaviors, `actions[robot]` their actions, `rewards[term][robot]` what each term gave, `decisions` what every
-    behavior perceived and wanted.
+    behavior perceived and wanted, `layers` the names that belong to it. Truths and whole numbers are values as such.
     """
 
     steps: npt.NDArray[np.int64]
-    values: dict[Slot, list[float | str]]
+    values: dict[Slot, list[Value]]
+    start: dict[Slot, Value]
+    """The same values before the first step."""
     controlling: list[list[str]]
     actions: list[list[str]]
     rewards: dict[str, list[Floats]]
     robots: int
     decisions: Decisions
+    layers: tuple[Layer, ...]
+    """Highest first."""
     expectations: list[list[str]] = field(default_factory=list)
     """For each robot whether the expectation of its controlling behavior `held` or `failed`, '' where it has none.
 
@@ -52,29 +64,9 @@ class Trace:
     scene: Scene | None = None
     """The scene of the spec's view, if it has one."""
 
-    @property
-    def columns(self) -> list[str]:
-        """The columns' names, `step` first; with several robots each name ends in the robot's index."""
-        robots = range(self.robots)
-        return [
-            "step",
-            *(slot.text(self.robots) for slot in self.values),
-            *(Slot(what, robot).text(self.robots) for robot in robots for what in ("controlling", "action")),
-            *(Slot("expectation", robot).text(self.robots) for robot in range(len(self.expectations))),
-            *(Slot(f"reward_{term}", robot).text(self.robots) for term in self.rewards for robot in robots),
-        ]
-
-    @property
-    def rows(self) -> list[tuple[int | float | str, ...]]:
-        """One tuple a step, in the order of the columns."""
-        control = [
-            column
-            for robot in range(self.robots)
-            for column in (self.controlling[robot], self.actions[robot])
-        ]
-        rewards = [values.tolist() for robots in self.rewards.values() for values in robots]
-        columns = (*self.values.values(), *control, *self.expectations, *rewards)
-        return list(zip(self.steps.tolist(), *columns, strict=True))
+    def before(self, step: int) -> dict[Slot, Value]:
+        """Return the values on which the decisions of a step are made; steps are counted from 1."""
+        return self.start if step == 1 else {slot: column[step - 2] for slot, column in self.values.items()}
 
 
 def trace(problem: Problem, architecture: Architecture, key: int, generation: int) -> Trace:
@@ -85,52 +77,77 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     pools = tuple(table[None] for table in architecture.tables)
     members = np.zeros((1, problem.n_behaviors), np.int64)
     team = problem.assemble(pools, members, generation)
-    steps_taken = team.traced_episode(key, architecture.structure, record)
-    decisions = decisions_of(problem, architecture, columns, record[:steps_taken])
-    traced = _read(problem, columns, record[:steps_taken], decisions)
-    return replace(traced, scene=_scene(traced, problem.meaning, key, generation))
+    record = record[: team.traced_episode(key, architecture.structure, record)]
+    constants = meaning.constants.vector(generation)
+    start = starting_values(meaning, key, constants)
+    traced = Trace(
+        steps=np.arange(1, len(record) + 1),
+        **_read(problem, columns, record, _with_definitions(start, meaning, constants)),
+        robots=meaning.spec.environment.robots,
+        decisions=decisions_of(problem, architecture, columns, record),
+        layers=layers_of(meaning.episode.modules, architecture.structure),
+    )
+    return replace(traced, scene=_scene(columns, record, meaning, start, constants))
 
 
-def _scene(traced: Trace, meaning: Meaning, key: int, generation: int) -> Scene | None:
+def _with_definitions(
+    start: dict[Slot, float], meaning: Meaning, constants: Sequence[float]
+) -> dict[Slot, float]:
+    nodes = definitions_at_the_start(meaning)
+    return {**start, **dict(zip(nodes, values_of([*nodes.values()], start, 0, constants), strict=True))}
+
+
+def _scene(
+    columns: list[Column],
+    record: Floats,
+    meaning: Meaning,
+    start: dict[Slot, float],
+    constants: Sequence[float],
+) -> Scene | None:
     if meaning.episode.picture is None:
         return None
-    constants = meaning.constants.vector(generation)
-    later = [dict(zip(traced.values, row, strict=True)) for row in zip(*traced.values.values(), strict=True)]
-    moments = [starting_values(meaning, key, constants), *later]
-    return scene(meaning.episode.picture, moments, constants)
+    stored = {column.slot: index for index, column in enumerate(columns) if column.content == "slot"}
+    later = [dict(zip(stored, row, strict=True)) for row in record[:, [*stored.values()]].tolist()]
+    return scene(meaning.episode.picture, [start, *later], constants)
 
 
-def _read(problem: Problem, columns: list[Column], record: Floats, decisions: Decisions) -> Trace:
+def _read(
+    problem: Problem, columns: list[Column], record: Floats, start: dict[Slot, float]
+) -> dict[str, Any]:
+    """Return the columns of a record and the starting values, as the arguments of a trace."""
     names = [("nobody", "")]
     names += [
         (behavior.name, action) for behavior in problem.meaning.episode.modules for action in behavior.actions
     ]
-    values: dict[Slot, list[float | str]] = {}
-    controlling: list[list[str]] = []
-    actions: list[list[str]] = []
-    rewards: dict[str, list[Floats]] = {}
-    expectations: list[list[str]] = []
+    as_value = _reader(problem.meaning)
+    read: dict[str, Any] = {"values": {}, "start": {}, "controlling": [], "actions": [], "rewards": {}}
+    read["expectations"] = []
     for (content, slot), column in zip(columns, record.T, strict=True):
-        if content == "choice":
-            controlling.append([names[int(number)][0] for number in column])
-            actions.append([names[int(number)][1] for number in column])
-        elif content == "expectation":
-            expectations.append([EXPECTATION[int(number)] for number in column])
-        elif content == "reward":
-            rewards.setdefault(slot[0], []).append(column)
-        elif content in {"slot", "definition"}:
-            cells = _cells_of(problem, slot)
-            values[slot] = (
-                [cells[int(value)] for value in column] if cells else [float(value) for value in column]
-            )
-    robots = problem.meaning.spec.environment.robots
-    steps = np.arange(1, len(record) + 1)
-    return Trace(steps, values, controlling, actions, rewards, robots, decisions, expectations)
+        match content:
+            case "choice":
+                read["controlling"].append([names[int(number)][0] for number in column])
+                read["actions"].append([names[int(number)][1] for number in column])
+            case "expectation":
+                read["expectations"].append([EXPECTATION[int(number)] for number in column])
+            case "reward":
+                read["rewards"].setdefault(slot.name, []).append(column)
+            case "slot" | "definition":
+                read["values"][slot] = [as_value(slot, number) for number in column.tolist()]
+                read["start"][slot] = as_value(slot, start[slot])
+    return read
 
 
-def _cells_of(problem: Problem, slot: Slot) -> Labels:
-    """Return the names of the cells of a sensor that is a partition, none of any other slot."""
-    written = problem.meaning.spec.environment.sensors.get(slot[0])
-    if written is None or not is_partition(written):
-        return ()
-    return problem.meaning.episode.partitions.get(slot[0], ())
+def _reader(meaning: Meaning) -> Callable[[Slot, float], Value]:
+    """Return the function that makes a recorded number what it is: a truth, the label of a cell, a whole number."""
+    episode, sensors = meaning.episode, meaning.spec.environment.sensors
+    kinds = {slot: node.kind for slot, node in (*episode.after.items(), *episode.definitions.items())}
+    whole = whole_values(episode, meaning.constants)
+
+    def as_value(slot: Slot, number: float) -> Value:
+        if kinds[slot] is Kind.TRUTH:
+            return bool(number)
+        if slot.name in sensors and is_partition(sensors[slot.name]):
+            return episode.partitions[slot.name][int(number)]
+        return int(number) if slot in whole and isfinite(number) else number
+
+    return as_value

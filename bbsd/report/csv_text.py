@@ -1,19 +1,92 @@
-"""An episode as comma-separated values."""
+"""An episode as comma-separated values: a line for each step, or for each value of each step."""
 
 from __future__ import annotations
 
 import csv
+from enum import StrEnum
 from io import StringIO
 from typing import TYPE_CHECKING
 
+from bbsd.expression.node_data import Slot
+
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
     from bbsd.evaluation import Trace
+    from bbsd.evaluation.decisions import Layer
+
+    Cell = float | int | bool | str
+
+    Column = tuple[Slot, list[Cell]]
+    """A name with its robot, and a value before the first step and after each."""
 
 
-def csv_text(trace: Trace) -> str:
-    """Return a line with the names of a trace's columns, then a line for each step; numbers have all their digits."""
+class TraceFormat(StrEnum):
+    """How a trace is laid out: a column for each value, or a line for each value of each step."""
+
+    WIDE = "wide"
+    LONG = "long"
+
+
+def csv_text(trace: Trace, form: TraceFormat = TraceFormat.WIDE) -> str:
+    """Return a trace as CSV; step 0 is the start. Numbers have all their digits, truths are true and false."""
+    lines = _wide(trace) if form is TraceFormat.WIDE else _long(trace)
     text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(trace.columns)
-    writer.writerows(trace.rows)
+    csv.writer(text, lineterminator="\n").writerows(lines)
     return text.getvalue()
+
+
+def _wide(trace: Trace) -> Iterator[list[object]]:
+    """Yield the columns' names, which end in the robot's index where there are several, then a line for each step."""
+    columns = list(trace_columns(trace))
+    yield ["step", *(slot.text(trace.robots) for slot, _ in columns)]
+    for step, row in enumerate(zip(*(values for _, values in columns), strict=True)):
+        yield [step, *map(_text, row)]
+
+
+def _long(trace: Trace) -> Iterator[list[object]]:
+    """Yield a line for each value of each step, without what is not known; the world's values have no robot."""
+    yield ["step", "robot", "name", "value"]
+    columns = [(slot.robot, slot.variable, values) for slot, values in trace_columns(trace)]
+    for step in range(len(trace.steps) + 1):
+        for robot, (name, place), values in columns:
+            if values[step] != "":
+                whose = "" if robot is None else robot
+                yield [step, whose, Slot(name, None, place).text(1), _text(values[step])]
+
+
+def _text(value: Cell) -> object:
+    return str(value).lower() if isinstance(value, bool) else value
+
+
+def trace_columns(trace: Trace) -> Iterator[Column]:
+    """Yield all that a trace tells, one column after another; what is not known at the start is ''."""
+    for slot, values in trace.values.items():
+        yield slot, [trace.start[slot], *values]
+    for robot in range(trace.robots):
+        yield Slot("controlling", robot), ["", *trace.controlling[robot]]
+        yield Slot("action", robot), ["", *trace.actions[robot]]
+    for robot, expectations in enumerate(trace.expectations):
+        yield Slot("expectation", robot), ["", *expectations]
+    for term, robots in trace.rewards.items():
+        for robot, earned in enumerate(robots):
+            yield Slot(f"reward_{term}", robot), ["", *earned.tolist()]
+    for robot in range(trace.robots):
+        for layer in trace.layers:
+            yield from _decisions(trace, layer, robot)
+
+
+def _decisions(trace: Trace, layer: Layer, robot: int) -> Iterator[Column]:
+    """Yield whether a layer's behavior was excited, the cell that it was in, and what it wanted."""
+    excited, cells, wishes = (
+        decided[:, robot, layer.index].tolist()
+        for decided in (trace.decisions.excited, trace.decisions.cells, trace.decisions.wishes)
+    )
+    yield Slot(f"excited_{layer.behavior}", robot), ["", *excited]
+    if layer.inputs:
+        yield Slot(f"cell_{layer.behavior}", robot), ["", *_cells(layer, cells)]
+    yield Slot(f"wish_{layer.behavior}", robot), ["", *map(layer.wish, wishes)]
+
+
+def _cells(layer: Layer, cells: Iterable[int]) -> list[str]:
+    return [", ".join(f"{name}={label}" for name, label in layer.cell_labels(cell).items()) for cell in cells]

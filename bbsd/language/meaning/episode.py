@@ -25,7 +25,7 @@ from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_par
 from bbsd.language.meaning.picture import Picture, elaborate_picture
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterator, Mapping
 
     from bbsd.language.field_types import Expression
     from bbsd.language.meaning.tables.labels import Labels
@@ -87,13 +87,13 @@ def elaborate_episode(names: Names) -> Episode | None:
 
     The order of evaluation numbers the nodes, and with that fixes the kernel's text.
     """
-    first = _starting_values(names)
+    first = starting_values(names)
     beginning = Moment(names, first, names.graph.number(0), starting=True)
 
-    now = _slots_read(first, names)
-    decision = _decision(now, beginning, names)
+    now = slots_read(first, names)
+    decision = decision_at(now, beginning, names)
     kinds = {name: values[0].kind for name, values in first.items()}
-    modules = tuple(_modules(names, decision, kinds))
+    modules = tuple(modules_at(names, decision, kinds))
     if sum(len(module.actions) for module in modules) > MAX_ACTIONS_IN_ALL:
         message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
         names.findings.report(("behaviors",), "BB038", message, KEY)
@@ -109,7 +109,7 @@ def elaborate_episode(names: Names) -> Episode | None:
         start=_slots_of_state(first, names) | _slots_of_sensors(beginning),
         acted=_slots_of_state(acted, names),
         after=_slots_of_state(then, names) | _slots_of_sensors(outcome),
-        definitions=_definitions(outcome),
+        definitions=definitions_at(outcome),
         choices=choices,
         reward=_reward(outcome),
         ends=_ends(outcome),
@@ -124,7 +124,7 @@ def elaborate_episode(names: Names) -> Episode | None:
     return episode if len(modules) == len(names.spec.behaviors) else None
 
 
-def _modules(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Iterator[Module]:
+def modules_at(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Iterator[Module]:
     """Yield the behaviors that could be understood, up to the one that makes all tables together too large."""
     n_cells = 0
     for name, behavior in names.spec.behaviors.items():
@@ -138,7 +138,7 @@ def _modules(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Itera
             return
 
 
-def _starting_values(names: Names) -> Stored:
+def starting_values(names: Names) -> Stored:
     """Return the starting values of world and state, each evaluated when another one or the episode needs it."""
     environment = names.spec.environment
     starts: dict[tuple[str, int], Node] = {}
@@ -165,7 +165,7 @@ def _starting_values(names: Names) -> Stored:
     }
 
 
-def _slots_read(stored: Stored, names: Names) -> Stored:
+def slots_read(stored: Stored, names: Names) -> Stored:
     """Return the leaves that read the slots of stored values."""
     world = names.spec.environment.world
     return {
@@ -177,10 +177,17 @@ def _slots_read(stored: Stored, names: Names) -> Stored:
     }
 
 
-def _decision(now: Stored, beginning: Moment, names: Names) -> Moment:
-    """Return the snapshot: state and sensors are read from where the step before, or the start, stored them."""
+def decision_at(
+    now: Stored, beginning: Moment, names: Names, stored: Collection[str] | None = None
+) -> Moment:
+    """Return the snapshot: state and sensors are read from where the step before, or the start, stored them.
+
+    Where `stored` names sensors, all others are computed from the state and the world of the snapshot itself.
+    """
     step, sensed = names.step, Sensed()
     for name, sensor in names.spec.environment.sensors.items():
+        if stored is not None and name not in stored:
+            continue
         for robot in names.robots if name not in names.unusable else ():
             if is_partition(sensor):
                 partition = beginning.partition(name, robot)
@@ -229,7 +236,7 @@ def _evaluate_as(kind: Kind, expression: Expression, scope: Scope) -> Node:
     return (elaboration.truth if kind is Kind.TRUTH else elaboration.number)(expression.tree, scope)
 
 
-def _definitions(outcome: Moment) -> dict[Slot, Node]:
+def definitions_at(outcome: Moment) -> dict[Slot, Node]:
     """Return definitions without parameters, robot by robot; look through the others only for mistakes."""
     names = outcome.names
     nodes: dict[Slot, Node] = {}
@@ -281,7 +288,7 @@ def _picture(first: Stored, beginning: Moment, names: Names) -> Picture | None:
     if names.spec.view is None:
         return None
     forked = replace(names, graph=names.graph.fork())
-    return elaborate_picture(names.spec.view, _decision(_slots_read(first, forked), beginning, forked))
+    return elaborate_picture(names.spec.view, decision_at(slots_read(first, forked), beginning, forked))
 
 
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:

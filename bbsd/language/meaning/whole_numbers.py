@@ -37,6 +37,17 @@ def report_fractions(episode: Episode | None, constants: Constants, findings: Fi
             findings.report(path, "BB064", message, span, "round it: floor(...) or round(...)")
 
 
+def whole_values(episode: Episode, constants: Constants) -> set[Slot]:
+    """Return the slots and the definitions that provably always hold whole numbers."""
+    is_whole_constant = cache(constants.whole)
+    slots = {**_whole_slots(episode, is_whole_constant), GENERATION_SLOT: True}
+    defined = {slot: node for slot, node in episode.definitions.items() if node.kind is Kind.NUMBER}
+    whole = whole_nodes(defined.values(), slots, is_whole_constant)
+    return {slot for slot, is_whole in slots.items() if is_whole} | {
+        slot for slot, node in defined.items() if whole[node.number]
+    }
+
+
 def _slots_read(nodes: Sequence[Node]) -> dict[Slot, bool]:
     return {node.slot: True for node in needed(nodes) if node.operation == "slot"}
 

@@ -63,15 +63,32 @@ def test_a_trace_tells_everything_of_every_step():
     ]
 
 
-def test_a_trace_has_a_row_a_step_and_a_name_for_every_column():
+def test_values_are_whole_numbers_and_truths_where_they_are_always():
+    found = traced(WALK.replace("{w: 0}", '{w: 0, half: "0.5"}'))
+    kinds = {slot.name: {type(value) for value in column} for slot, column in found.values.items()}
+    assert kinds == {
+        "w": {int},
+        "half": {float},
+        "x": {int},
+        "awake": {bool},
+        "place": {str},
+        "double": {int},
+    }
+
+
+def test_a_trace_knows_what_was_before_each_step():
     found = traced(WALK)
-    assert found.columns == [
-        "step", "w", "x_0", "x_1", "awake_0", "awake_1", "place_0", "place_1", "double_0", "double_1",
-        "controlling_0", "action_0", "controlling_1", "action_1",
-        "reward_x_0", "reward_x_1", "reward_cost_0", "reward_cost_1",
-    ]  # fmt: skip
-    assert found.rows[1] == (2, 2, 2, 14, 1, 0, "0", "1", 4, 28, "go", "near", "go", "far", 2, 14, -1, -1)
-    assert len(found.rows) == 3
+    start = {("w", None): 0, ("x", 0): 0, ("x", 1): 10, ("awake", 0): True, ("awake", 1): True}
+    start |= {("place", 0): "0", ("place", 1): "1", ("double", 0): 0, ("double", 1): 20}
+    assert {(slot.name, slot.robot): value for slot, value in found.before(1).items()} == start
+    assert found.before(3)["x", 1, ()] == found.values["x", 1, ()][1] == 14
+    assert found.start.keys() == found.values.keys()
+
+
+def test_definitions_are_known_at_the_start_where_before_is_the_same():
+    found = traced(WALK.replace("double: 2 * x", "double: 2 * x, gain: x - before(x), seen: step + x"))
+    assert [found.start[name, 1, ()] for name in ("double", "gain", "seen")] == [20, 0, 10]
+    assert found.values["gain", 1, ()] == [2, 2, 2]
 
 
 def test_nobody_in_control_is_told():
@@ -123,7 +140,5 @@ def test_a_trace_tells_whether_what_is_expected_came_only_where_anything_is():
     )
     found = traced(text)
     assert found.expectations == [["failed", "held", "held"], ["failed", "failed", "failed"]]
-    assert found.columns[14:16] == ["expectation_0", "expectation_1"]
-    assert found.rows[1][14:16] == ("held", "failed")
     nobody = traced(text.replace("[never, go]", "[never]"))
     assert nobody.expectations == [[""] * 3] * 2

@@ -9,6 +9,7 @@ import pytest
 
 from bbsd.api import Designed
 from bbsd.evaluation import Decisions, Evaluation, Interval, Trace
+from bbsd.evaluation.decisions import Layer
 from bbsd.expression.node_data import Slot
 from bbsd.solver.judgement import Selection
 
@@ -53,8 +54,8 @@ def trace():
         Slot("height", 1): [2.1, 2.1, 2.1],
         Slot("tilt", 0): [9.0, 4.0, 1.0],
         Slot("tilt", 1): [9.0, 4.0, 1.0],
-        Slot("tilted", 0): [1.0, 0.0, 0.0],
-        Slot("tilted", 1): [1.0, 0.0, 0.0],
+        Slot("tilted", 0): [True, False, False],
+        Slot("tilted", 1): [True, False, False],
         Slot("place", 0): ["lowest", "highest", "highest"],
         Slot("place", 1): ["highest", "lowest", "lowest"],
         Slot("sonar", 0): [0.5, 0.25, 0.125],
@@ -65,5 +66,17 @@ def trace():
     actions = [["push", "push", "stop"], ["push", "", "push"]]
     wishes = np.array([[[1, 0, 0], [1, 0, 0]], [[1, 0, 0], [0, 0, 0]], [[1, 1, 0], [1, 0, 0]]])
     excited, who = np.ones((3, 2, 3), bool), np.array([[0, 0], [0, -1], [1, 0]])
-    decisions = Decisions(excited, np.zeros((3, 2, 3), np.int64), wishes, who)
-    return Trace(np.arange(1, 4), values, controlling, actions, rewards, robots=2, decisions=decisions)
+    return Trace(
+        steps=np.arange(1, 4),
+        values=values,
+        start={slot: value[0] for slot, value in values.items()},
+        controlling=controlling,
+        actions=actions,
+        rewards=rewards,
+        robots=2,
+        decisions=Decisions(excited, np.array([[[1, 0, 0]] * 2] * 3), wishes, who),
+        layers=(
+            Layer("stop_at_goal", 1, {}, ("stop",)),
+            Layer("push_more", 0, {"place": ("lowest", "highest")}, ("push",)),
+        ),
+    )

@@ -1,14 +1,48 @@
 from __future__ import annotations
 
-from bbsd.report.csv_text import csv_text
+import csv
+from io import StringIO
+
+from bbsd.report.csv_text import TraceFormat, csv_text
 
 
-def test_an_episode_has_a_line_for_each_step(trace):
-    header, *lines = [line.split(",") for line in csv_text(trace).splitlines()]
-    assert [line[0] for line in lines] == ["1", "2", "3"]
-    second = dict(zip(header, lines[1], strict=True))
+def lines_of(text):
+    return list(csv.DictReader(StringIO(text)))
+
+
+def test_an_episode_has_a_line_for_the_start_and_for_each_step(trace):
+    start, _, second, _ = lines = lines_of(csv_text(trace))
+    assert [line["step"] for line in lines] == ["0", "1", "2", "3"]
     assert second["height_0"] == "2.5"
     assert second["place_1"] == "lowest"
     assert (second["controlling_0"], second["action_0"]) == ("push_more", "push")
     assert (second["controlling_1"], second["action_1"]) == ("nobody", "")
     assert second["reward_near_goal_1"] == "0.2"
+    assert (start["height_0"], start["controlling_0"], start["reward_near_goal_0"]) == ("2.0", "", "")
+
+
+def test_truths_are_true_and_false(trace):
+    assert [line["tilted_0"] for line in lines_of(csv_text(trace))] == ["true", "true", "false", "false"]
+
+
+def test_each_layer_tells_whether_it_was_excited_its_cell_and_its_wish(trace):
+    start, _, second, third = lines_of(csv_text(trace))
+    assert second["cell_push_more_1"] == "place=highest"
+    assert (second["excited_push_more_1"], second["wish_push_more_1"]) == ("true", "no action")
+    assert (third["wish_stop_at_goal_0"], third["wish_push_more_0"]) == ("stop", "push")
+    assert "cell_stop_at_goal_0" not in third  # it has no inputs
+    assert "wish_idle_0" not in third  # it is in no layer
+    assert start["wish_push_more_0"] == ""
+
+
+def test_a_long_trace_has_a_line_for_each_value_of_each_step(trace):
+    wide, long = lines_of(csv_text(trace)), lines_of(csv_text(trace, TraceFormat.LONG))
+    assert [*long[0]] == ["step", "robot", "name", "value"]
+    by_key = {(line["step"], f"{line['name']}_{line['robot']}"): line["value"] for line in long}
+    assert len(by_key) == len(long)
+    assert by_key == {
+        (line["step"], name): value
+        for line in wide
+        for name, value in line.items()
+        if name != "step" and value != ""
+    }

@@ -1,0 +1,72 @@
+"""Trace an episode of a design, without a compiler where it is chosen by its number."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.api.compiling import located_reward_errors
+from bbsd.api.specs import AnySpec, load
+from bbsd.architecture import given_architecture
+from bbsd.compiler import compile_meaning
+from bbsd.evaluation import Trace, agents_of, chosen_episode, episode_key, evaluation_keys, returns_of
+from bbsd.evaluation import trace as trace_episode
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from bbsd.evaluation import Rank
+    from bbsd.language.loading import Loaded
+
+EPISODES_OF_DESIGN = 1000
+"""Episodes in an evaluation of a design by default."""
+
+
+def trace(
+    spec: AnySpec,
+    *,
+    seed: int = 0,
+    episode: int | Rank = 0,
+    episodes: int = EPISODES_OF_DESIGN,
+    overrides: Sequence[str] = (),
+) -> Trace:
+    """Run one of the episodes of `evaluate`, and return all values of each step.
+
+    Args:
+        spec: A spec without holes.
+        seed: As in `evaluate`.
+        episode: Its number from 0, or "worst", "median" or "best" of the first `episodes`.
+        episodes: How many episodes to choose from.
+        overrides: Values that replace those of the spec.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+    """
+    loaded = load(spec, seed=seed, overrides=overrides)
+    number = (
+        episode
+        if isinstance(episode, int)
+        else chosen_episode(episode_returns(loaded, episodes, seed), episode)
+    )
+    problem = compile_meaning(loaded.meaning, compiled=False)
+    key = episode_key(seed, number)
+    return trace_episode(
+        problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
+    )
+
+
+def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: int = 0) -> NDArray[np.float64]:
+    """Return the returns (n_episodes,) of the first episodes of `evaluate`.
+
+    Raises:
+        SpecError: a reward is not finite.
+        HolesLeft: the spec has holes.
+    """
+    problem = compile_meaning(loaded.meaning)
+    agent = agents_of([given_architecture(problem)])
+    streams = evaluation_keys(seed, episodes)
+    with located_reward_errors(loaded):
+        return returns_of(problem, agent, streams, loaded.spec.design.coevolution.generations).ravel()

@@ -1,0 +1,77 @@
+"""Values and behaviors at a single moment: at the start of an episode, or in a situation that somebody describes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.expression.scope import Findings
+from bbsd.expression.vocabulary import DRAWS
+from bbsd.language.field_types import Expression
+from bbsd.language.meaning.definitions import read_definitions
+from bbsd.language.meaning.episode import (
+    decision_at,
+    definitions_at,
+    modules_at,
+    slots_read,
+    starting_values,
+)
+from bbsd.language.meaning.moments import Moment
+from bbsd.language.meaning.names import Names
+from bbsd.language.meaning.order import names_used_in
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Slot
+    from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.meaning.meaning import Meaning
+    from bbsd.language.models import Spec
+
+
+def modules_in_a_situation(meaning: Meaning, given: Collection[str]) -> tuple[Module, ...]:
+    """Return the behaviors with nodes that read world, state, the step, and no sensors but those that must be given.
+
+    These are the sensors named in `given`, and all that draw or look at the step before. The nodes are of a graph of
+    their own.
+    """
+    names = _names(meaning)
+    first = starting_values(names)
+    beginning = Moment(names, first, names.graph.number(0), starting=True)
+    stored = {*given, *uncertain_sensors(meaning.spec)}
+    decision = decision_at(slots_read(first, names), beginning, names, stored)
+    kinds = {name: values[0].kind for name, values in first.items()}
+    return tuple(modules_at(names, decision, kinds))
+
+
+def definitions_at_the_start(meaning: Meaning) -> dict[Slot, Node]:
+    """Return definitions without parameters as nodes that read what is stored at the start, where before(e) is e."""
+    names = _names(meaning)
+    first = starting_values(names)
+    beginning = Moment(names, first, names.graph.number(0), starting=True)
+    sensed = decision_at(slots_read(first, names), beginning, names).sensed
+    stored = slots_read(first, names)
+    return definitions_at(Moment(names, stored, names.graph.number(0), sensed=sensed, starting=True))
+
+
+def uncertain_sensors(spec: Spec) -> set[str]:
+    """Return the sensors whose values do not follow from world and state alone: they draw, or use `before`."""
+    environment = spec.environment
+    definitions = {key.partition("(")[0].strip(): [each] for key, each in environment.definitions.items()}
+    uncertain = set[str]()
+    for name, sensor in environment.sensors.items():
+        waiting, seen = [sensor] if isinstance(sensor, Expression) else [*sensor.values()], set[str]()
+        while waiting:
+            used = names_used_in(waiting) - seen
+            seen |= used
+            waiting = [expression for other in used for expression in definitions.get(other, ())]
+        if seen & {*DRAWS, "before"}:
+            uncertain.add(name)
+    return uncertain
+
+
+def _names(meaning: Meaning) -> Names:
+    """Return what a spec's names stand for, in a fork of its graph; it has no mistakes, so that none are found."""
+    findings = Findings()
+    definitions = read_definitions(meaning.spec.environment.definitions, findings)
+    return Names(meaning.spec, meaning.graph.fork(), findings, meaning.constants, definitions, {})
