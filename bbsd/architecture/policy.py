@@ -63,11 +63,13 @@ class Projection:
 class JointSpace:
     """The dimensions with their cells, and each behavior's projection, in the spec's order.
 
+    `nodes[dimension][robot]` gives the index of the present cell, or a truth where the dimension is one.
     Actions are numbered over all behaviors from 1 on, 0 is nobody's; behavior b's begin after `first_actions[b]`.
     `effects` (n_actions + 1,) maps each action to the lowest one that sets the same values.
     """
 
     dimensions: Mapping[str, Labels]
+    nodes: tuple[tuple[Node, ...], ...]
     projections: tuple[Projection, ...]
     first_actions: tuple[int, ...]
     effects: NDArray[np.uint16]
@@ -100,7 +102,13 @@ def joint_space(meaning: Meaning) -> JointSpace:
         if key is not None:
             dimensions.setdefault(key, Dimension(module.name, EXCITEMENT, module.name))
     projections = tuple(_projection(module, [*dimensions]) for module in modules)
-    return JointSpace(_by_name(dimensions.values()), projections, _first_actions(modules), _effects(modules))
+    return JointSpace(
+        _by_name(dimensions.values()),
+        tuple(nodes for nodes, _ in dimensions),
+        projections,
+        _first_actions(modules),
+        _effects(modules),
+    )
 
 
 def _by_name(dimensions: Iterable[Dimension]) -> dict[str, Labels]:
