@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from bbsd.api.comparing import compare
     from bbsd.api.compiling import compile  # noqa: A004 - the verb
     from bbsd.api.designing import design, price
     from bbsd.api.evaluating import evaluate
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from bbsd.api.tracing import trace
 
 HOMES = {
+    "bbsd.api.comparing": ("compare",),
     "bbsd.api.compiling": ("compile",),
     "bbsd.api.designing": ("design", "price"),
     "bbsd.api.evaluating": ("evaluate",),
@@ -59,6 +61,7 @@ __all__ = [
     "Progress",
     "SearchProgress",
     "check",
+    "compare",
     "compile",
     "design",
     "evaluate",

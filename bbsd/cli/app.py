@@ -18,6 +18,7 @@ from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
+from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.version import __version__
 
@@ -35,6 +36,7 @@ app.command()(new)
 app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
+app.command()(compare)
 app.command()(check)
 app.command()(fmt)
 app.command()(config)

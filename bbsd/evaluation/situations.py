@@ -151,9 +151,7 @@ def _recorders(meaning: Meaning, space: JointSpace) -> tuple[Module, ...]:
         Module(
             f"recorder_{index}",
             {"cell": labels},
-            tuple(
-                (graph.apply("cell_of", node) if node.kind is Kind.TRUTH else node,) for node in nodes
-            ),
+            tuple((graph.apply("cell_of", node) if node.kind is Kind.TRUTH else node,) for node in nodes),
             always,
             {action: sets},
             Table(bytes([NO_ACTION] * len(labels))),

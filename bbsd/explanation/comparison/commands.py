@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,6 +27,8 @@ MOST_ROBOT_STEPS = 2_000_000
 """Robot-steps of each design that are watched."""
 FEWEST = 10
 """Episodes that are watched at least."""
+MOST_IN_WORDS = 24
+"""Pairs of commands of which is said where they are given."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,9 +74,12 @@ def commands(a: Watched, b: Watched) -> Commands:
         share_a = a.share_of(groups_a[pair]) if pair in groups_a else 0.0
         share_b = b.share_of(groups_b[pair]) if pair in groups_b else 0.0
         shares[pair] = share_a, share_b
-    differences = []
+    differences: list[CommandDifference] = []
+    whole = _Whole(a), _Whole(b)
     for pair, (share_a, share_b) in sorted(shares.items(), key=lambda item: -sum(item[1])):
-        where = _where(a, groups_a[pair]) if share_a >= share_b else _where(b, groups_b[pair])
+        where: tuple[str, ...] = ()
+        if len(differences) < MOST_IN_WORDS:
+            where = whole[0].where(groups_a[pair]) if share_a >= share_b else whole[1].where(groups_b[pair])
         differences.append(CommandDifference(*pair, share_a, share_b, where))
     return Commands(
         a.share,
@@ -81,7 +87,6 @@ def commands(a: Watched, b: Watched) -> Commands:
         a.met.steps,
         b.met.steps,
         a.met.episodes,
-        _n_different(a, b),
         tuple(differences),
     )
 
@@ -106,25 +111,31 @@ def _command(host: Hosted, number: int) -> Command:
     return Command(host.names[behavior], actions[number - host.space.first_actions[behavior] - 1])
 
 
-def _where(watched: Watched, which: NDArray[np.bool_]) -> tuple[str, ...]:
-    """Return conditions that hold in situations that were met, and nowhere where the commands are others."""
-    space = watched.host.space
-    if not space.is_small or not space.sizes:
-        return ()
-    both = [policy(space, design).astype(np.int64) for design in (watched.host.own, watched.host.guest)]
-    cells = np.zeros(space.joint_size, np.bool_)
-    cells[np.ravel_multi_index(tuple(watched.met.cells[which].T), space.sizes)] = True
-    numbers = both[0] * (int(both[1].max()) + 1) + both[1]
-    allowed = np.isin(numbers, np.unique(numbers[cells])) & ~cells
-    return condition_texts(cells, allowed, space.dimensions)
+class _Whole:
+    """What a host and its guest do in all situations of a joint space that is small enough."""
 
+    def __init__(self, watched: Watched) -> None:
+        self._watched = watched
 
-def _n_different(a: Watched, b: Watched) -> int:
-    """Return how many different situations were met in which commands differ, each once where both met it."""
-    rows = [watched.met.cells[watched.differ] for watched in (a, b)]
-    if a.host.space.dimensions != b.host.space.dimensions:
-        return max(map(len, rows))
-    return len(np.unique(np.concatenate(rows), axis=0))
+    @cached_property
+    def _commands(self) -> NDArray[np.int64]:
+        """A number for what both do in each joint cell, (n_joint,)."""
+        host = self._watched.host
+        own, guest = (policy(host.space, design).astype(np.int64) for design in (host.own, host.guest))
+        return own * (int(guest.max()) + 1) + guest
+
+    def where(self, which: NDArray[np.bool_]) -> tuple[str, ...]:
+        """Return conditions that hold in some of the situations that were met, and nowhere where commands are others.
+
+        None where the space is too large, or they would be too long to read.
+        """
+        host = self._watched.host
+        if not host.space.is_small or not host.space.sizes:
+            return ()
+        cells = np.zeros(host.space.joint_size, np.bool_)
+        cells[np.ravel_multi_index(tuple(self._watched.met.cells[which].T), host.space.sizes)] = True
+        allowed = np.isin(self._commands, np.unique(self._commands[cells])) & ~cells
+        return condition_texts(cells, allowed, host.dimensions)
 
 
 def with_asked(

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.meaning.tables.labels import Labels
     from bbsd.text import Data
 
 
@@ -64,6 +65,8 @@ class Hosted:
     names: tuple[str, ...]
     n_own: int
     """The number of the host's behaviors, which come first."""
+    dimensions: Mapping[str, Labels]
+    """Those of the joint space, with names for people."""
 
 
 def same_behaviors(one: Design, other: Design) -> tuple[str, ...]:
@@ -78,8 +81,13 @@ def same_behaviors(one: Design, other: Design) -> tuple[str, ...]:
     )
 
 
-def hosted(host: Design, guest: Design) -> Hosted:
+def hosted(host: Design, guest: Design, guest_name: str) -> Hosted:
     """Return the problem of a host in which the guest's behaviors can control too.
+
+    Args:
+        host: in whose episodes they act.
+        guest: whose behaviors they are.
+        guest_name: what people call the guest, where its inputs have to be told from those of the host.
 
     Raises:
         CannotHost: a behavior of the guest has no meaning in the host's environment.
@@ -89,9 +97,7 @@ def hosted(host: Design, guest: Design) -> Hosted:
     meaning, problem = host.loaded.meaning, host.problem
     if foreign:
         meaning = _with_behaviors(host, guest, foreign)
-        problem = compile_meaning(
-            meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs
-        )
+        problem = compile_meaning(meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs)
     n_own = len(host.modules)
     tables = dict(zip(guest.problem.names, guest.architecture.tables, strict=True))
     index = {name: number for number, name in enumerate(host.problem.names) if name in same}
@@ -103,14 +109,25 @@ def hosted(host: Design, guest: Design) -> Hosted:
         for name, table in zip(host.problem.names, host.architecture.tables, strict=True)
     ]
     structure = np.array([index[name] for name in reversed(guest.order)], np.int64)
+    space = joint_space(meaning)
+    known = zip(meaning.episode.modules[n_own:], foreign, strict=True)
     return Hosted(
         problem,
-        joint_space(meaning),
+        space,
         own,
         Architecture((*lent, *(tables[name] for name in foreign)), structure),
         (*host.problem.names, *foreign),
         n_own,
+        _for_people(space.dimensions, {module.name: f"{guest_name}'s {name}" for module, name in known}),
     )
+
+
+def _for_people(dimensions: Mapping[str, Labels], names: Mapping[str, str]) -> dict[str, Labels]:
+    """Return dimensions with the names by which people know behaviors."""
+    return {
+        " of ".join(names.get(part, part) for part in dimension.split(" of ")): labels
+        for dimension, labels in dimensions.items()
+    }
 
 
 def _with_behaviors(host: Design, guest: Design, names: list[str]) -> Meaning:

@@ -44,8 +44,6 @@ class Commands:
     steps_b: int
     episodes: int
     """Of each design, the episodes that were watched."""
-    situations: int
-    """The different situations that were met, in which commands differ."""
     differences: tuple[CommandDifference, ...]
     """The most frequent first."""
 

@@ -1,0 +1,62 @@
+"""Compare two designs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.api.compiling import located_reward_errors
+from bbsd.api.specs import AnySpec, load
+from bbsd.architecture import HolesLeft, given_architecture
+from bbsd.compiler import compile_meaning
+from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.evaluation import evaluation_keys
+from bbsd.explanation.comparison import Comparison, Design, compare_designs
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bbsd.language.loading import Loaded
+
+EPISODES = 1000
+"""The number of episodes by default, as in `evaluate`."""
+
+
+def compare(
+    a: AnySpec,
+    b: AnySpec,
+    *,
+    episodes: int = EPISODES,
+    seed: int = 0,
+    lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
+    overrides: Sequence[str] = (),
+) -> Comparison:
+    """Say how a design B differs from a design A: in what it does, in its rules and order, and in what it earns.
+
+    Args:
+        a: A spec without holes.
+        b: Another one. Behaviors are matched by their names.
+        episodes: Number of episodes, at least 2; both run the same ones, which are those of `evaluate`.
+        seed: Seed of the episodes, and of the draws in constants.
+        lanes: Episodes that a kernel runs side by side; affects only the speed.
+        jobs: Threads to use; affects only the speed.
+        overrides: Values that replace those of both specs.
+
+    Raises:
+        SpecError: with all mistakes of a spec, or if a reward is not finite.
+        HolesLeft: a spec has holes.
+        ValueError: fewer than two episodes, of which no interval can be told.
+    """
+    if episodes < 2:
+        raise ValueError("a comparison needs two episodes at least")
+    one, other = (_design(load(spec, seed=seed, overrides=overrides), lanes, jobs) for spec in (a, b))
+    with located_reward_errors(one.loaded):
+        return compare_designs(one, other, evaluation_keys(seed, episodes))
+
+
+def _design(loaded: Loaded, lanes: int, jobs: int) -> Design:
+    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    try:
+        return Design(loaded, problem, given_architecture(problem))
+    except HolesLeft as error:
+        raise HolesLeft(f"{loaded.source.file}: {error}") from None
