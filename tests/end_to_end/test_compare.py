@@ -11,7 +11,9 @@ import pytest
 from tests.end_to_end.commands import bbsd
 from tests.unit.explanation.comparison.designs import WALK, edited
 
-OTHER = edited(WALK, ("rules: [otherwise: right]", "rules: [{when: {odd: true}, do: stay}, {otherwise: right}]"))
+OTHER = edited(
+    WALK, ("rules: [otherwise: right]", "rules: [{when: {odd: true}, do: stay}, {otherwise: right}]")
+)
 
 
 @pytest.fixture
@@ -40,14 +42,18 @@ def test_json(designs):
 
 
 def test_a_requirement_that_is_missed_is_said_on_standard_error(designs):
-    low = json.loads(bbsd("compare", "a.yaml", "b.yaml", "--episodes", 20, "--format", "json", cwd=designs)[1])
+    low = json.loads(
+        bbsd("compare", "a.yaml", "b.yaml", "--episodes", 20, "--format", "json", cwd=designs)[1]
+    )
     low = low["return"]["difference"]["ci95"][0]
     code, out, err = bbsd("compare", "a.yaml", "b.yaml", "--episodes", 20, "--at-least", 0, cwd=designs)
     assert code == 1
     assert "b.yaml earns more than a.yaml begins at" in err
     assert "A  a.yaml" in out
     assert bbsd("compare", "a.yaml", "b.yaml", "--episodes", 20, "--at-least", low, cwd=designs)[0] == 0
-    assert bbsd("compare", "a.yaml", "b.yaml", "--episodes", 20, "--at-least", low + 1e-6, cwd=designs)[0] == 1
+    assert (
+        bbsd("compare", "a.yaml", "b.yaml", "--episodes", 20, "--at-least", low + 1e-6, cwd=designs)[0] == 1
+    )
 
 
 def test_mistakes_of_the_user(designs):
@@ -95,7 +101,12 @@ def test_git_shows_what_changed_in_a_design(tmp_path, way):
         assert "-1  go    always right" in shown
         assert "+1  go    stay where odd" in shown
     else:
-        git("config", "diff.bbsd.command", f'f() {{ {tool} compare --episodes 20 "$2" "$5"; }}; f', cwd=tmp_path)
+        git(
+            "config",
+            "diff.bbsd.command",
+            f'f() {{ {tool} compare --episodes 20 "$2" "$5"; }}; f',
+            cwd=tmp_path,
+        )
         shown = git("diff", cwd=tmp_path)
         assert "go: right becomes stay" in shown
         assert "of A's robot-steps B would have commanded something else" in shown

@@ -6,8 +6,8 @@ import pytest
 from bbsd.architecture import joint_space
 from bbsd.architecture.deciding import cells_at, excited_at
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import trace
 from bbsd.evaluation import situations as module
+from bbsd.evaluation import trace
 from bbsd.evaluation.situations import TooLongToWatch, counted, situations
 from bbsd.evaluation.streams import evaluation_keys
 from tests.unit.architecture.designs import meaning_of, random_architecture

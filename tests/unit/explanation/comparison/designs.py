@@ -19,7 +19,10 @@ environment:
   state: {x: "integers(0, 3)", y: 0}
   dynamics: {y: "y + integers(0, 1)"}
 behaviors:
-  back: {inputs: {far: x > 2}, actions: {left: {x: x - 1}}, rules: [{when: {far: true}, do: left}, {otherwise: no action}]}
+  back:
+    inputs: {far: x > 2}
+    actions: {left: {x: x - 1}}
+    rules: [{when: {far: true}, do: left}, {otherwise: no action}]
   go: {inputs: {odd: y % 2 == 1}, actions: {right: {x: x + 1}, stay: {x: x}}, rules: [otherwise: right]}
 structure: [back, go]
 reward: {here: x, late: -y}

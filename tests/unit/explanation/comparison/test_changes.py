@@ -36,7 +36,10 @@ def test_a_behavior_with_other_cells_is_redefined():
 
 def test_a_sensor_with_other_cells_redefines_the_behaviors_that_share_it():
     other = edited(HAND, ("      middle: otherwise", "      middle: height > 0\n      deep: otherwise"))
-    assert [each.behavior for each in redefined(design_of(HAND), design_of(other))] == ["slow_down", "hurry_up"]
+    assert [each.behavior for each in redefined(design_of(HAND), design_of(other))] == [
+        "slow_down",
+        "hurry_up",
+    ]
 
 
 def test_what_moved_is_the_least_that_explains_the_order():

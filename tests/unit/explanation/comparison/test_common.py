@@ -18,7 +18,9 @@ def test_layout_and_comments_make_no_difference():
         ("height: height + speed * dt", "height: (height + speed*dt)  # anew"),
         ("stop_at_goal:\n    inputs", "stop_at_goal:\n    # soon\n    inputs"),
     )
-    assert world_differences(one, other) == sense_differences(one, other) == reward_differences(one, other) == ()
+    assert (
+        world_differences(one, other) == sense_differences(one, other) == reward_differences(one, other) == ()
+    )
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,9 @@ from tests.unit.explanation.comparison.designs import WALK, design_of, edited
 
 KEYS = evaluation_keys(0, 12)
 
-OTHER_RULES = edited(WALK, ("rules: [otherwise: right]", "rules: [{when: {odd: true}, do: stay}, {otherwise: right}]"))
+OTHER_RULES = edited(
+    WALK, ("rules: [otherwise: right]", "rules: [{when: {odd: true}, do: stay}, {otherwise: right}]")
+)
 NO_BACK = edited(WALK, ("do: left}", "do: no action}"))
 REORDERED = edited(OTHER_RULES, ("[back, go]", "[go, back]"))
 REDEFINED = edited(WALK, ("far: x > 2", "far: x > 4"))
@@ -141,7 +143,9 @@ def test_each_change_is_measured_alone_and_taken_back():
 
 def test_the_order_is_a_change_of_its_own():
     found = sources_of(WALK, REORDERED)
-    assert found["order", "", ""].in_a == compared(WALK, edited(WALK, ("[back, go]", "[go, back]"))).difference
+    assert (
+        found["order", "", ""].in_a == compared(WALK, edited(WALK, ("[back, go]", "[go, back]"))).difference
+    )
 
 
 def test_a_behavior_with_another_definition_is_a_change_of_its_own():
@@ -155,8 +159,8 @@ def test_behaviors_that_only_one_has_belong_to_the_order():
     more = edited(
         OTHER_RULES,
         ("structure: [back, go]", "structure: [jump, back, go]"),
-        ("structure:", "  jump: {inputs: {low: x < 1}, actions: {up: {x: x + 3}}, "
-         "rules: [{when: {low: true}, do: up}, {otherwise: no action}]}\nstructure:"),
+        ("structure:", ("  jump: {inputs: {low: x < 1}, actions: {up: {x: x + 3}}, "
+         "rules: [{when: {low: true}, do: up}, {otherwise: no action}]}\nstructure:")),
     )  # fmt: skip
     found = sources_of(WALK, more)
     plain = edited(more, ("[{when: {odd: true}, do: stay}, {otherwise: right}]", "[otherwise: right]"))

@@ -64,8 +64,8 @@ def test_the_same_design_is_said_to_be_the_same():
 def test_a_changed_rule_that_never_mattered_is_said_to_have_no_effect():
     other = edited(
         WALK,
-        ("structure:", "  never: {inputs: {deep: x < -9}, actions: {up: {x: 5}}, "
-         "rules: [{when: {deep: true}, do: up}, {otherwise: no action}]}\nstructure:"),
+        ("structure:", ("  never: {inputs: {deep: x < -9}, actions: {up: {x: 5}}, "
+         "rules: [{when: {deep: true}, do: up}, {otherwise: no action}]}\nstructure:")),
         ("structure: [back, go]", "structure: [never, back, go]"),
         ("rules: [otherwise: right]", "rules: [{when: {odd: true}, do: stay}, {otherwise: right}]"),
     )  # fmt: skip
