@@ -1,4 +1,4 @@
-"""The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, explain.
+"""The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, explain, page.
 
 A spec is given as the path of its file, as the folder of a run, which stands for the design that came out, or as what
 `load` returned. `overrides` are texts such as
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from bbsd.api.designing import design, price
     from bbsd.api.evaluating import evaluate
     from bbsd.api.explaining import explain
+    from bbsd.api.paging import Page, page
     from bbsd.api.results import (
         AnyProgress,
         BestSoFar,
@@ -35,6 +36,7 @@ HOMES = {
     "bbsd.api.designing": ("design", "price"),
     "bbsd.api.evaluating": ("evaluate",),
     "bbsd.api.explaining": ("explain",),
+    "bbsd.api.paging": ("Page", "page"),
     "bbsd.api.results": (
         "AnyProgress",
         "BestSoFar",
@@ -58,6 +60,7 @@ __all__ = [
     "Interrupted",
     "NoBudget",
     "NothingToDesign",
+    "Page",
     "Progress",
     "SearchProgress",
     "check",
@@ -67,6 +70,7 @@ __all__ = [
     "evaluate",
     "explain",
     "load",
+    "page",
     "price",
     "trace",
 ]

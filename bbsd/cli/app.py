@@ -20,6 +20,7 @@ from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
+from bbsd.cli.understanding.report import report
 from bbsd.version import __version__
 
 GC_THRESHOLD = 100_000
@@ -37,6 +38,7 @@ app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
 app.command()(compare)
+app.command()(report)
 app.command()(check)
 app.command()(fmt)
 app.command()(config)

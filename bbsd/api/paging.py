@@ -1,0 +1,169 @@
+"""Gather what a page on a design shows: how it is built, what it earns, and episodes to replay."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bbsd.api.compiling import located_reward_errors
+from bbsd.api.evaluating import EPISODES_OF_DESIGN, evaluate
+from bbsd.api.explaining import explain
+from bbsd.api.specs import AnySpec, load
+from bbsd.architecture import given_architecture
+from bbsd.compiler import compile_meaning
+from bbsd.evaluation import agents_of, chosen_episode, detailed_outcomes, evaluation, trace
+from bbsd.evaluation.choosing import RANKS
+from bbsd.evaluation.scene import starting_values
+from bbsd.evaluation.streams import episode_key, evaluation_keys
+from bbsd.runs.storage.folder import Folder
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from bbsd.architecture import Architecture
+    from bbsd.compiler import DetailedOutcome, Problem
+    from bbsd.evaluation import Evaluation, Interval, Rank, Trace
+    from bbsd.explanation import Explanation
+    from bbsd.expression.node_data import Slot
+    from bbsd.language.loading import Loaded
+
+RANDOM_AGENTS = 200
+"""Random agents beside the design of a run."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Replay:
+    """An episode to replay: which one it is, what it earned, the values it starts with, and its trace."""
+
+    rank: Rank
+    number: int
+    """The episode's number in the evaluation, from 0."""
+    total: float
+    """Its return."""
+    start: dict[Slot, float]
+    trace: Trace
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """The run that a design is from: the folder's name, what `run.json` says, its metrics and its spec."""
+
+    name: str
+    content: dict[str, Any]
+    metrics: list[dict[str, Any]]
+    spec: Loaded
+    random: Interval
+    """The mean return of random agents of the run's spec."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Page:
+    """All that a page on a design shows."""
+
+    name: str
+    """The name of the design's file or folder."""
+    loaded: Loaded
+    architecture: Architecture
+    explanation: Explanation
+    evaluation: Evaluation
+    returns: NDArray[np.float64]
+    """The return of each episode of the evaluation, (n_episodes,)."""
+    replays: tuple[Replay, ...]
+    """The worst, the median and the best episode."""
+    run: Run | None
+    """The run that the design is from, None where it is a file."""
+    seed: int
+    overrides: tuple[str, ...]
+
+
+def page(
+    design: AnySpec,
+    *,
+    seed: int = 0,
+    episodes: int = EPISODES_OF_DESIGN,
+    overrides: Sequence[str] = (),
+    progress: Callable[[int, int], None] | None = None,
+) -> Page:
+    """Gather what a page on a design shows; `bbsd.report.page.page_text` makes the page of it.
+
+    Args:
+        design: A spec without holes, or the folder of a run.
+        seed: Seed of the episodes, and of the draws in constants.
+        episodes: Number of episodes of the evaluation, as in `evaluate`.
+        overrides: Values that replace those of the spec.
+        progress: Called from time to time with the numbers of finished and of all episodes.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        HolesLeft: the spec has holes.
+        NoDesign: a folder that is no run, or a run without an answer.
+    """
+    loaded = load(design, seed=seed, overrides=overrides)
+    problem = compile_meaning(loaded.meaning)
+    architecture = given_architecture(problem)
+    returns: list[NDArray[np.float64]] = []
+
+    def reported(outcomes: Iterator[DetailedOutcome]) -> Iterator[DetailedOutcome]:
+        for outcome in outcomes:
+            returns.append(outcome.returns)
+            if progress is not None:
+                progress(sum(map(len, returns)), episodes)
+            yield outcome
+
+    generation, streams = loaded.spec.design.coevolution.generations, evaluation_keys(seed, episodes)
+    with located_reward_errors(loaded):
+        outcomes = detailed_outcomes(problem, agents_of([architecture]), streams, generation)
+        measured = evaluation(problem, reported(outcomes), 1)
+    earned = np.concatenate(returns)
+    return Page(
+        name=_name(design, loaded),
+        loaded=loaded,
+        architecture=architecture,
+        explanation=explain(loaded),
+        evaluation=measured,
+        returns=earned,
+        replays=_replays(problem, architecture, earned, seed, generation),
+        run=_run(design, seed),
+        seed=seed,
+        overrides=tuple(overrides),
+    )
+
+
+def _name(design: AnySpec, loaded: Loaded) -> str:
+    return Path(loaded.source.file if not isinstance(design, str | Path) else design).resolve().name
+
+
+def _replays(
+    problem: Problem,
+    architecture: Architecture,
+    returns: NDArray[np.float64],
+    seed: int,
+    generation: int,
+) -> tuple[Replay, ...]:
+    """Run the worst, the median and the best episode as plain Python, and record everything."""
+    plain = compile_meaning(problem.meaning, compiled=False)
+    constants = problem.meaning.constants.vector(generation)
+    replays = []
+    for rank in RANKS:
+        number = chosen_episode(returns, rank)
+        key = episode_key(seed, number)
+        start = starting_values(problem.meaning, key, constants)
+        traced = trace(plain, architecture, key, generation)
+        replays.append(Replay(rank, number, float(returns[number]), start, traced))
+    return tuple(replays)
+
+
+def _run(design: AnySpec, seed: int) -> Run | None:
+    """Return the run that a folder holds."""
+    if not isinstance(design, str | Path) or not Path(design).is_dir():
+        return None
+    folder = Folder(Path(design))
+    made = folder.design()
+    spec = load(made.spec, seed=made.seed, overrides=made.overrides)
+    beside = evaluate(spec, seed=seed, fill="random", agents=RANDOM_AGENTS)
+    return Run(folder.path.resolve().name, folder.read_run_file(), folder.lines(), spec, beside.returns)

@@ -1,0 +1,36 @@
+"""`bbsd report`."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import bbsd
+from bbsd.cli.options import DesignFile, Overrides, Seed
+from bbsd.cli.output import error_console, require_writable_file, show
+from bbsd.errors import escape
+from bbsd.files import write_text_whole
+
+
+def report(
+    design: DesignFile,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="PAGE.html", help="The file of the page.")
+    ] = Path("page.html"),
+    episodes: Annotated[int, typer.Option(metavar="N", min=1, help="Number of episodes.")] = 1000,
+    seed: Seed = 0,
+    overrides: Overrides = None,
+) -> None:
+    """Write one page on a design: what it earns, why it does what it does, and episodes to replay.
+
+    The page is a single file that works offline, in any browser.
+    """
+    require_writable_file(output)
+    from bbsd.report.progress import episode_listener
+
+    with episode_listener(error_console()) as listener:
+        page = bbsd.page(design, seed=seed, episodes=episodes, overrides=overrides or (), progress=listener)
+    from bbsd.report.page import page_text
+
+    write_text_whole(output, page_text(page), through_links=True)
+    show(escape(str(output)))

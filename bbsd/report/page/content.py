@@ -1,0 +1,48 @@
+"""The content of a page as plain data, which its script reads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.errors import escape
+from bbsd.report.page.behaviors import behaviors_plain, commands_plain, inputs_plain
+from bbsd.report.page.episodes import episode_plain
+from bbsd.report.page.origin import repeat_plain, spec_plain
+from bbsd.report.page.progress import curves_plain
+from bbsd.report.page.returns import earns_plain, histogram_plain
+from bbsd.version import __version__
+
+if TYPE_CHECKING:
+    from bbsd.api.paging import Page
+    from bbsd.report.plain import Plain
+
+
+def page_plain(page: Page, most_steps: int) -> dict[str, Plain]:
+    """Return all that a page shows; its replays have at most so many steps."""
+    spec = page.loaded.spec
+    order = [*spec.behaviors]
+    return {
+        "name": spec.name,
+        "summary": None if spec.summary is None else escape(" ".join(spec.summary.split())),
+        "version": __version__,
+        "robots": spec.environment.robots,
+        "earns": earns_plain(page),
+        "returns": histogram_plain(page.returns),
+        "behaviors": behaviors_plain(page),
+        "layers": [order.index(layer.behavior) for layer in page.explanation.layers],
+        "left_out": [*page.explanation.left_out],
+        "inputs": inputs_plain(page),
+        "commands": commands_plain(page),
+        "episodes": [episode_plain(replay, page.loaded.meaning, most_steps) for replay in page.replays],
+        "notes": _notes(page, most_steps),
+        "curves": curves_plain(page.run.metrics) if page.run else None,
+        "spec": spec_plain(page),
+        "repeat": repeat_plain(page),
+    }
+
+
+def _notes(page: Page, most_steps: int) -> list[Plain]:
+    longest = max(len(replay.trace.steps) for replay in page.replays)
+    if longest <= most_steps:
+        return []
+    return [f"To keep the page small, the replays have the first {most_steps:,} of up to {longest:,} steps."]
