@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.evaluating import EPISODES_OF_DESIGN, evaluate
+from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
 from bbsd.api.specs import AnySpec, load
+from bbsd.api.tracing import EPISODES_OF_DESIGN
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import agents_of, chosen_episode, detailed_outcomes, evaluation, trace
 from bbsd.evaluation.choosing import RANKS
-from bbsd.evaluation.scene import starting_values
 from bbsd.evaluation.streams import episode_key, evaluation_keys
 from bbsd.runs.storage.folder import Folder
 
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from bbsd.compiler import DetailedOutcome, Problem
     from bbsd.evaluation import Evaluation, Interval, Rank, Trace
     from bbsd.explanation import Explanation
-    from bbsd.expression.node_data import Slot
     from bbsd.language.loading import Loaded
 
 RANDOM_AGENTS = 200
@@ -38,14 +37,13 @@ RANDOM_AGENTS = 200
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Replay:
-    """An episode to replay: which one it is, what it earned, the values it starts with, and its trace."""
+    """An episode to replay: which one it is, what it earned, and its trace."""
 
     rank: Rank
     number: int
     """The episode's number in the evaluation, from 0."""
     total: float
     """Its return."""
-    start: dict[Slot, float]
     trace: Trace
 
 
@@ -147,14 +145,12 @@ def _replays(
 ) -> tuple[Replay, ...]:
     """Run the worst, the median and the best episode as plain Python, and record everything."""
     plain = compile_meaning(problem.meaning, compiled=False)
-    constants = problem.meaning.constants.vector(generation)
     replays = []
     for rank in RANKS:
         number = chosen_episode(returns, rank)
         key = episode_key(seed, number)
-        start = starting_values(problem.meaning, key, constants)
         traced = trace(plain, architecture, key, generation)
-        replays.append(Replay(rank, number, float(returns[number]), start, traced))
+        replays.append(Replay(rank, number, float(returns[number]), traced))
     return tuple(replays)
 
 

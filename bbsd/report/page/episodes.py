@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.expression.kinds import Kind
 from bbsd.report.figures.plane import limits_of
 from bbsd.report.page.columns import packed, shortened
 
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
 
     from bbsd.api.paging import Replay
     from bbsd.evaluation import Scene
+    from bbsd.evaluation.tracing import Value
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
     from bbsd.report.plain import Plain
@@ -40,9 +40,8 @@ def episode_plain(replay: Replay, meaning: Meaning, most_steps: int) -> dict[str
         "steps": len(trace.steps),
         "shown": shown,
         "values": [
-            _value_plain(slot, trace.values[slot][:shown], replay.start[slot], meaning)
-            for slot in trace.values
-            if slot in replay.start
+            _value_plain(slot, [trace.start[slot], *column[:shown]], meaning)
+            for slot, column in trace.values.items()
         ],
         "controlling": [packed(robot.tolist()) for robot in decisions.controlling[:shown].T],
         "actions": [packed(actions[:shown]) for actions in trace.actions],
@@ -58,15 +57,8 @@ def episode_plain(replay: Replay, meaning: Meaning, most_steps: int) -> dict[str
     }
 
 
-def _value_plain(
-    slot: Slot, later: Sequence[float | str], start: float, meaning: Meaning
-) -> dict[str, Plain]:
+def _value_plain(slot: Slot, column: Sequence[Value], meaning: Meaning) -> dict[str, Plain]:
     robots = meaning.spec.environment.robots
-    column: list[float | str | bool] = [start, *later]
-    if later and isinstance(later[0], str):
-        column[0] = meaning.episode.partitions[slot.name][int(start)]
-    elif meaning.episode.start[slot].kind is Kind.TRUTH:
-        column = [bool(value) for value in column]
     robot = "" if slot.robot is None or robots == 1 else f"robot {slot.robot}"
     places = "".join(f"[{place}]" for place in slot.place)
     return {
