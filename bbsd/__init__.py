@@ -2,13 +2,14 @@
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
-`evaluate`, `compare`, `explain`, `page` for `bbsd report`, and `trace` for one episode; `bbsd.api` documents them.
+`evaluate`, `explain`, `worth`, `compare`, `page` for `bbsd report`, and `trace` for one episode; `bbsd.api` documents
+them.
 """
 
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bbsd.api import check, compare, compile, design, evaluate, explain, load, page, trace  # noqa: A004 - the verb
+    from bbsd.api import check, compare, compile, design, evaluate, explain, load, page, trace, worth  # noqa: A004
 
 from bbsd.version import __version__
 
@@ -23,6 +24,7 @@ __all__ = [
     "load",
     "page",
     "trace",
+    "worth",
 ]
 
 

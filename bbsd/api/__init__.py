@@ -1,4 +1,4 @@
-"""The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, explain, page.
+"""The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, and so on.
 
 A spec is given as the path of its file, as the folder of a run, which stands for the design that came out, or as what
 `load` returned. `overrides` are texts such as
@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from bbsd.api.appraising import worth
     from bbsd.api.comparing import compare
     from bbsd.api.compiling import compile  # noqa: A004 - the verb
     from bbsd.api.designing import design, price
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from bbsd.api.tracing import trace
 
 HOMES = {
+    "bbsd.api.appraising": ("worth",),
     "bbsd.api.comparing": ("compare",),
     "bbsd.api.compiling": ("compile",),
     "bbsd.api.designing": ("design", "price"),
@@ -73,6 +75,7 @@ __all__ = [
     "page",
     "price",
     "trace",
+    "worth",
 ]
 
 

@@ -21,6 +21,7 @@ from bbsd.cli.schema import schema
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
+from bbsd.cli.understanding.worth import worth
 from bbsd.version import __version__
 
 GC_THRESHOLD = 100_000
@@ -37,6 +38,7 @@ app.command()(new)
 app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
+app.command()(worth)
 app.command()(compare)
 app.command()(report)
 app.command()(check)

@@ -27,6 +27,14 @@ def column(values: Sequence[float]) -> list[str]:
     return [_special(value) or f"{round(value, decimals) + 0.0:.{decimals}f}" for value in values]
 
 
+def changes(values: Sequence[float]) -> list[str]:
+    """Return differences for a column, as `column` does, with a sign where they are not 0."""
+    texts = column(values)
+    return [
+        f"+{text}" if value > 0 and float(text) else text for value, text in zip(values, texts, strict=True)
+    ]
+
+
 def _special(value: float) -> str:
     if isfinite(value):
         return ""

@@ -27,8 +27,6 @@ MODULES = (
     "bands.js",
     "scene.js",
     "charts.js",
-    "worth.js",
-    "comparison.js",
     "page.js",
 )
 """The parts of the page's script, in this order."""

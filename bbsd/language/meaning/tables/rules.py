@@ -7,6 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
+from bbsd.expression.scope import Findings
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Inputs, Table
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
@@ -14,7 +15,7 @@ from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
-    from bbsd.expression.scope import Findings, Path
+    from bbsd.expression.scope import Path
     from bbsd.language.meaning.tables.labels import Labels
 
 MAX_MATCHED = 30_000_000
@@ -56,6 +57,12 @@ def table_of_rules(
         for cell in fresh:
             given[cell], undecided[cell] = decision, 0
     return Table(bytes(given))
+
+
+def cells_matched(rule: Rule, inputs: Inputs) -> tuple[tuple[int, ...], ...]:
+    """Return for each input the cells that a rule without mistakes matches, in ascending order."""
+    matched = _matched(rule, inputs, (), Findings(), ())
+    return tuple(tuple(cells) for cells in matched or ())
 
 
 def _cells_of_block(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> list[int]:
