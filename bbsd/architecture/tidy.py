@@ -31,7 +31,7 @@ def tidy_tables(meaning: Meaning, architecture: Architecture) -> Architecture:
     space = joint_space(meaning)
     if not space.is_small:
         return architecture
-    matters = _where_decisions_matter(space, architecture)
+    matters = where_decisions_matter(space, architecture)
     tables = tuple(
         _shortest(module, table, cells)
         for module, table, cells in zip(meaning.episode.modules, architecture.tables, matters, strict=True)
@@ -39,16 +39,21 @@ def tidy_tables(meaning: Meaning, architecture: Architecture) -> Architecture:
     return Architecture(tables, architecture.structure)
 
 
-def _where_decisions_matter(space: JointSpace, architecture: Architecture) -> list[NDArray[np.bool_]]:
-    """Return for each behavior which of its cells (n_cells,) decide the action in some joint cell."""
+def where_decisions_matter(
+    space: JointSpace, architecture: Architecture, possible: NDArray[np.bool_] | None = None
+) -> list[NDArray[np.bool_]]:
+    """Return for each behavior which of its cells (n_cells,) decide the action in some joint cell.
+
+    If `possible`, of the shape `space.sizes`, is given, only joint cells count that may occur.
+    """
     matters = [np.zeros(len(table), np.bool_) for table in architecture.tables]
-    controlled = np.zeros(space.sizes, np.bool_)
+    controlled = np.zeros(space.sizes, np.bool_) if possible is None else ~possible
     for behavior in reversed(architecture.structure.tolist()):
         table = architecture.tables[behavior]
         excited = decisions(space, behavior, np.ones_like(table)) > 0
         cells = np.broadcast_to(own_cells(space, behavior), space.sizes)
         matters[behavior][np.unique(cells[excited & ~controlled])] = True
-        controlled |= decisions(space, behavior, table) > 0
+        controlled = controlled | (decisions(space, behavior, table) > 0)
     return matters
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from bbsd.architecture.boxes import FREE, KEEP, cover
 from bbsd.architecture.rules import cell_words, n_words_of, sizes_of
 from bbsd.architecture.spec_changes import MOST_WORDS
+from bbsd.explanation.words import Condition
 from bbsd.language.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
@@ -29,6 +30,15 @@ def condition_text(box: Box, inputs: Inputs) -> str:
         if len(chosen) < len(cells)
     ]
     return " and ".join(parts)
+
+
+def conditions_of(box: Box, inputs: Inputs) -> tuple[Condition, ...]:
+    """Return the condition that holds in a box for programs: of each input that it names, the cells."""
+    return tuple(
+        Condition(name, chosen, tuple(str(cells[cell]) for cell in chosen))
+        for (name, cells), chosen in zip(inputs.items(), box, strict=True)
+        if len(chosen) < len(cells)
+    )
 
 
 def condition_texts(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:

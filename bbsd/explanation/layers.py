@@ -2,204 +2,212 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.architecture.boxes import first_match
-from bbsd.architecture.policy import controlling, decisions, joint_space, own_cells
-from bbsd.architecture.rules import boxes_of, n_words_of, sizes_of
+from bbsd.architecture.boxes import FREE, KEEP, first_match
+from bbsd.architecture.policy import controlling, joint_space
+from bbsd.architecture.rules import n_words_of, sizes_of
+from bbsd.architecture.shortest import rule_list, shortest_cover
 from bbsd.architecture.spec_changes import MOST_WORDS
-from bbsd.explanation.conditions import condition_text, condition_texts
-from bbsd.explanation.vocabulary import GlossaryEntry, actions_of, inputs_of
+from bbsd.explanation.cells import cares_of, in_order
+from bbsd.explanation.conditions import condition_text, condition_texts, conditions_of
+from bbsd.explanation.useless import depends_on, useless_of
+from bbsd.explanation.vocabulary import actions_of, inputs_of
+from bbsd.explanation.whole import rows_of
+from bbsd.explanation.words import (
+    CellsInWords,
+    Explanation,
+    InputInWords,
+    LayerInWords,
+    NeverAsked,
+    RuleInWords,
+    Watched,
+)
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from numpy.typing import NDArray
 
-    from bbsd.architecture import Architecture, JointSpace
+    from bbsd.architecture import Architecture
+    from bbsd.architecture.boxes import Box
+    from bbsd.architecture.visits import Visits
+    from bbsd.explanation.cells import Cares
     from bbsd.language.field_types import Expression
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
+    from bbsd.language.meaning.tables.table import Inputs
+
+MOST_TABLE = 4096
+"""Cells of a table that an explanation lists one by one."""
 
 
-@dataclass(frozen=True, slots=True)
-class RuleInWords:
-    """The decision where a condition holds ('' is otherwise), and whether higher layers always prevent it."""
+def explain_architecture(
+    meaning: Meaning, architecture: Architecture, visits: Visits | None = None
+) -> Explanation:
+    """Explain an architecture of a spec; numbers of cells count joint cells, not time spent in them.
 
-    decision: str
-    where: str
-    overruled: bool
-
-
-@dataclass(frozen=True, slots=True)
-class CellsInWords:
-    """The number of cells of a table with one decision."""
-
-    decision: str
-    cells: int
-
-
-@dataclass(frozen=True, slots=True)
-class LayerInWords:
-    """A layer and its behavior.
-
-    The first rule that holds decides; the last one's condition is always ''. If the rules would be too long to read,
-    there are none, and `counted` has the number of cells of each decision instead. If higher layers always prevent some
-    actions of the behavior, `overruled` says where (except for rules that are overruled as a whole), `effective` where
-    it can control, and `overruled_by` names the behaviors that prevent it, highest first; the first two are empty if
-    they would be too long to read. `cells` counts the joint cells in which it controls.
+    With `visits`, cells that were never asked do not matter to the rules; what the table says there is listed apart.
     """
-
-    layer: int
-    behavior: str
-    excited: str | None
-    expects: str | None
-    rules: tuple[RuleInWords, ...]
-    counted: tuple[CellsInWords, ...]
-    overruled: tuple[str, ...]
-    effective: tuple[str, ...]
-    overruled_by: tuple[str, ...]
-    cells: int | None
-
-    @property
-    def acts(self) -> bool:
-        """Whether the behavior has an action in any cell."""
-        decisions = [rule.decision for rule in self.rules] + [cells.decision for cells in self.counted]
-        return any(decision != NO_ACTION_TEXT for decision in decisions)
-
-
-@dataclass(frozen=True, slots=True)
-class Explanation:
-    """An architecture in words, its layers from the highest down.
-
-    If the joint input space is too large to enumerate, everything that depends on it is empty, and numbers of cells
-    are None.
-    """
-
-    name: str
-    layers: tuple[LayerInWords, ...]
-    left_out: tuple[str, ...]
-    joint_size: int
-    nobody: tuple[str, ...]
-    nobody_cells: int | None
-    inputs: tuple[GlossaryEntry, ...]
-    actions: tuple[GlossaryEntry, ...]
-
-    def to_plain(self) -> dict[str, Any]:
-        """Return the explanation as plain data for JSON."""
-        return asdict(self)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Control:
-    """Where a behavior has an action and where it can control, for each cell of its own table (n_cells,)."""
-
-    acts: NDArray[np.bool_]
-    controls: NDArray[np.bool_]
-    prevented_by: tuple[int, ...]
-    """The behaviors that prevent it in some joint cells where it has an action and never controls."""
-
-
-def explain_architecture(meaning: Meaning, architecture: Architecture) -> Explanation:
-    """Explain an architecture of a spec; numbers of cells count joint cells, not time spent in them."""
-    space = joint_space(meaning)
+    space, possible = joint_space(meaning), None
     order = architecture.structure.tolist()
     control = controlling(space, architecture) if space.is_small else None
     nobody = np.zeros(0, bool) if control is None else control < 0
     behaviors = list(meaning.spec.behaviors)
+    highest_first = [behaviors[behavior] for behavior in reversed(order)]
+    cares = cares_of(space, architecture, possible, control, visits)
+    layers = tuple(
+        _layer(meaning, architecture, layer, cares[order[layer]], control, visits)
+        for layer in reversed(range(len(order)))
+    )
     return Explanation(
         name=meaning.spec.name,
-        layers=tuple(
-            _layer(meaning, space, architecture, layer, control) for layer in reversed(range(len(order)))
-        ),
+        layers=layers,
         left_out=tuple(name for index, name in enumerate(behaviors) if index not in order),
         joint_size=space.joint_size,
         nobody=condition_texts(nobody, np.zeros_like(nobody), space.dimensions) if nobody.any() else (),
         nobody_cells=None if control is None else int(nobody.sum()),
-        inputs=inputs_of(meaning.spec, [behaviors[behavior] for behavior in reversed(order)]),
-        actions=actions_of(meaning.spec, [behaviors[behavior] for behavior in reversed(order)]),
+        rows=rows_of(meaning, architecture, cares, visits),
+        useless=tuple(useless_of(meaning, architecture, cares, layers, visits)),
+        watched=None if visits is None else Watched(visits.episodes, visits.robot_steps, visits.nobody),
+        inputs=inputs_of(meaning.spec, highest_first),
+        actions=actions_of(meaning.spec, highest_first),
     )
 
 
 def _layer(
     meaning: Meaning,
-    space: JointSpace,
     architecture: Architecture,
     layer: int,
+    cares: Cares,
     controls: NDArray[np.int64] | None,
+    visits: Visits | None,
 ) -> LayerInWords:
     behavior = int(architecture.structure[layer])
-    module, table = meaning.episode.modules[behavior], architecture.tables[behavior]
-    written = meaning.spec.behaviors[module.name]
-    control = _control(space, behavior, table, controls)
-    lost = control.acts & ~control.controls
-    rules, whole = _rules(module, table, control)
-    names = list(meaning.spec.behaviors)
-    above = [other for other in architecture.structure[::-1].tolist() if other in control.prevented_by]
+    module, table = meaning.episode.modules[behavior], architecture.tables[behavior].astype(np.int64)
+    written, names = meaning.spec.behaviors[module.name], list(meaning.spec.behaviors)
+    sizes, words = sizes_of(module.inputs), (NO_ACTION_TEXT, *module.actions)
+    boxes, is_shortest = rule_list(np.where(cares.counts, table, FREE), sizes)
+    n_words = n_words_of(boxes, module.inputs)
+    is_readable = n_words <= MOST_WORDS
+    n_cells = None if controls is None else int(np.count_nonzero(controls == behavior))
+    first = first_match([box for box, _ in boxes], sizes)
+    said = np.array([decision for _, decision in boxes])[first]
+    covered, effective = ((), ()) if n_cells == 0 else _overruled(cares, said, module.inputs)
+    above = in_order(architecture.structure.tolist(), cares.prevented_by)
     return LayerInWords(
         layer=layer + 1,
         behavior=module.name,
         excited=_one_line(written.excited),
         expects=_one_line(written.expects),
-        rules=rules,
-        counted=() if rules else _counted(module, table),
-        overruled=condition_texts(lost & ~whole, whole | ~control.acts, module.inputs),
-        effective=condition_texts(control.controls, ~control.acts, module.inputs) if lost.any() else (),
+        inputs=_inputs(module, depends_on(table, cares.counts, sizes)),
+        rules=_rules(module, boxes, _counts(visits, behavior, first), n_cells == 0) if is_readable else (),
+        is_shortest=is_shortest,
+        words=n_words,
+        table=_table(table, cares, words) if is_readable and len(table) <= MOST_TABLE else (),
+        counted=() if is_readable else _counted(table, words),
+        kinds=cares.kinds,
+        covered=covered,
+        effective=effective,
         overruled_by=tuple(names[other] for other in above),
-        cells=None if controls is None else int(np.count_nonzero(controls == behavior)),
+        never_asked=_never_asked(module, table, cares, said) if is_readable else (),
+        cells=n_cells,
+        asked=None if visits is None else int(visits.asked[behavior].sum()),
+        controlled=None if visits is None else int(visits.controlled[behavior].sum()),
     )
+
+
+def _inputs(module: Module, depends: Sequence[bool]) -> tuple[InputInWords, ...]:
+    return tuple(
+        InputInWords(name, tuple(map(str, cells)) if len(cells) <= MOST_TABLE else (), matters)
+        for (name, cells), matters in zip(module.inputs.items(), depends, strict=True)
+    )
+
+
+def _overruled(
+    cares: Cares, said: NDArray[np.int64], inputs: Inputs
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return where rules have an action and higher layers always act before, and where it is left to the behavior."""
+    lost, left = cares.covered & (said > 0), ~cares.covered & (said > 0)
+    if not lost.any():
+        return (), ()
+    free = cares.impossible | (said == 0)
+    return condition_texts(lost, free | (cares.covered & ~lost), inputs), condition_texts(left, free, inputs)
+
+
+def _counts(
+    visits: Visits | None, behavior: int, first: NDArray[np.int64]
+) -> Callable[[int], tuple[int | None, int | None]]:
+    """Return a function from a rule's number to how often it was asked and controlled."""
+
+    def counts(rule: int) -> tuple[int | None, int | None]:
+        if visits is None:
+            return None, None
+        asked, controlled = (
+            each[behavior][first == rule].sum() for each in (visits.asked, visits.controlled)
+        )
+        return int(asked), int(controlled)
+
+    return counts
 
 
 def _one_line(condition: Expression | None) -> str | None:
     return None if condition is None else " ".join(condition.text.split())
 
 
-def _control(
-    space: JointSpace, behavior: int, table: NDArray[np.uint8], controller: NDArray[np.int64] | None
-) -> _Control:
-    """Return where a behavior acts and controls; without `controller`, it controls wherever it acts."""
-    if controller is None:
-        return _Control(table > 0, table > 0, ())
-    acts = np.broadcast_to(decisions(space, behavior, table) > 0, space.sizes).ravel()
-    own = np.broadcast_to(own_cells(space, behavior), space.sizes).ravel()
-    controls = _any_of(own[acts & (controller == behavior)], len(table))
-    prevented = acts & ~controls[own]
-    return _Control(
-        _any_of(own[acts], len(table)), controls, tuple(np.unique(controller[prevented]).tolist())
+def _rules(
+    module: Module,
+    boxes: Sequence[tuple[Box, int]],
+    counts: Callable[[int], tuple[int | None, int | None]],
+    overruled: bool,
+) -> tuple[RuleInWords, ...]:
+    words = (NO_ACTION_TEXT, *module.actions)
+    return tuple(
+        RuleInWords(
+            words[decision],
+            condition_text(box, module.inputs),
+            conditions_of(box, module.inputs),
+            overruled and decision > 0,
+            *counts(index),
+        )
+        for index, (box, decision) in enumerate(boxes)
     )
 
 
-def _any_of(cells: NDArray[np.int64], n_cells: int) -> NDArray[np.bool_]:
-    return np.bincount(cells, minlength=n_cells) > 0
+def _table(table: NDArray[np.int64], cares: Cares, words: Sequence[str]) -> tuple[str, ...]:
+    return tuple(
+        words[decision] if counts else ""
+        for decision, counts in zip(table.tolist(), cares.counts.tolist(), strict=True)
+    )
 
 
-def _rules(
-    module: Module, table: NDArray[np.uint8], control: _Control
-) -> tuple[tuple[RuleInWords, ...], NDArray[np.bool_]]:
-    """Return a behavior's rules, none if they would be too long, and the cells of those overruled as a whole."""
-    boxes, default = boxes_of(table, module.inputs)
-    words, sizes = (NO_ACTION_TEXT, *module.actions), sizes_of(module.inputs)
-    whole, rules = np.zeros(len(table), bool), []
-    if n_words_of(boxes, module.inputs) > MOST_WORDS:
-        return (), whole
-    cells = np.arange(len(table)).reshape(sizes)
-    elsewhere = np.flatnonzero(first_match([box for box, _ in boxes], sizes) < 0)
-    boxes_in_words = [
-        (condition_text(box, module.inputs), decision, cells[np.ix_(*box)].ravel()) for box, decision in boxes
-    ]
-    for where, decision, matched in [*boxes_in_words, ("", default, elsewhere)]:
-        acting = matched[(table[matched] == decision) & control.acts[matched]]
-        overruled = bool(acting.size and not control.controls[acting].any())
-        whole[acting] |= overruled
-        rules.append(RuleInWords(words[decision], where, overruled))
-    return tuple(rules), whole
+def _never_asked(
+    module: Module, table: NDArray[np.int64], cares: Cares, said: NDArray[np.int64]
+) -> tuple[NeverAsked, ...]:
+    """Return what a table says in cells that were never asked, first where it says something else than the rules."""
+    words = (NO_ACTION_TEXT, *module.actions)
+    found: list[NeverAsked] = []
+    for agrees in (False, True):
+        for decision in range(len(words)):
+            cells = cares.unasked & (table == decision) & ((said == table) == agrees)
+            values = np.where(cells, decision, np.where(cares.covered | cares.impossible, FREE, KEEP))
+            found += [
+                NeverAsked(
+                    words[decision],
+                    condition_text(box, module.inputs),
+                    conditions_of(box, module.inputs),
+                    agrees,
+                )
+                for box, _ in shortest_cover(values.astype(np.int64), sizes_of(module.inputs)).boxes
+            ]
+    return tuple(found)
 
 
-def _counted(module: Module, table: NDArray[np.uint8]) -> tuple[CellsInWords, ...]:
+def _counted(table: NDArray[np.int64], words: Sequence[str]) -> tuple[CellsInWords, ...]:
     """Return the number of cells of each decision that a table has, the most frequent first."""
     counts = np.bincount(table).tolist()
-    words = (NO_ACTION_TEXT, *module.actions)
     cells = [CellsInWords(words[decision], count) for decision, count in enumerate(counts) if count]
     return tuple(sorted(cells, key=lambda counted: -counted.cells))

@@ -2,34 +2,54 @@
 
 from __future__ import annotations
 
-from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from bbsd.errors import escape
 from bbsd.explanation.conditions import join_words
+from bbsd.explanation.decision_tables import decision_table, whole_table
+from bbsd.explanation.lines import LINE_WIDTH, hanging, wrapped
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.explanation.layers import Explanation, LayerInWords, RuleInWords
     from bbsd.explanation.vocabulary import GlossaryEntry
+    from bbsd.explanation.words import Explanation, LayerInWords, Useless, Watched
 
-LINE_WIDTH = 80
 NAME_WIDTH = 24
 """The widest column of names; a longer name stands on a line of its own."""
 MAX_PLACES = 6
 """The number of conditions under which nobody controls that are listed, at most."""
+LONG = 90
+"""Characters from which on it is not said where higher layers always act: they are listed above anyway."""
+MOST_INPUTS_IN_PROSE = 3
+"""Inputs of a behavior up to which its rules are sentences; of more, they are a decision table."""
 
 
 def explanation_text(explanation: Explanation) -> str:
     """Return an explanation in lines of 80 columns, without color; it ends with a line break."""
     blocks = [
         _heading(explanation),
-        _layers(explanation.layers),
+        _layers(explanation, all_tables=False),
         _control(explanation),
+        *_useless(explanation.useless),
         *_glossary("Inputs", explanation.inputs),
         *_glossary("Actions", explanation.actions),
+    ]
+    return "\n".join("\n".join(block) + "\n" for block in blocks)
+
+
+def table_text(explanation: Explanation) -> str:
+    """Return the decision table of each behavior, and the whole architecture as one table."""
+    blocks = [
+        _heading(explanation),
+        _layers(explanation, all_tables=True),
+        [
+            "The whole: of the rows that hold, the one of the highest layer counts.",
+            "",
+            *whole_table(explanation),
+        ],
+        _control(explanation),
+        *_useless(explanation.useless),
     ]
     return "\n".join("\n".join(block) + "\n" for block in blocks)
 
@@ -37,35 +57,57 @@ def explanation_text(explanation: Explanation) -> str:
 def _heading(explanation: Explanation) -> list[str]:
     n_layers = len(explanation.layers)
     layers = "1 layer" if n_layers == 1 else f"{n_layers} layers, highest first"
-    lines = _wrapped(f"{explanation.name}: {layers}")
+    lines = wrapped(f"{explanation.name}: {layers}")
     if n_layers > 1:
-        lines += _wrapped("The highest layer that has an action for the situation controls.")
+        lines += wrapped("The highest layer that has an action for the situation controls.")
     if explanation.left_out:
         verb = "are" if len(explanation.left_out) > 1 else "is"
-        lines += _wrapped(f"{join_words(explanation.left_out, 'and')} {verb} not in the structure.")
+        lines += wrapped(f"{join_words(explanation.left_out, 'and')} {verb} not in the structure.")
+    if long := [layer.behavior for layer in explanation.layers if layer.rules and not layer.is_shortest]:
+        lines += wrapped(
+            f"The rules of {join_words(long, 'and')} are short, found step by step; all others are the shortest."
+            if len(long) < n_layers
+            else "The rules are short, found step by step; there may be shorter ones."
+        )
     return lines
 
 
-def _layers(layers: Sequence[LayerInWords]) -> list[str]:
+def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
+    layers = explanation.layers
     digits = len(str(len(layers)))
     width = min(max(len(layer.behavior) for layer in layers), NAME_WIDTH)
-    return [
-        line
-        for layer in layers
-        for line in _hanging(
-            f"{layer.layer:>{digits}}  {layer.behavior:<{width}}  ", digits + width + 4, _sentences(layer)
+    lines: list[str] = []
+    for layer in layers:
+        is_table = (
+            layer.rules and (all_tables or _n_inputs(layer) > MOST_INPUTS_IN_PROSE) and len(layer.rules) > 1
         )
-    ]
+        head, column = f"{layer.layer:>{digits}}  {layer.behavior:<{width}}  ", digits + width + 4
+        if not is_table:
+            lines += hanging(
+                head, column, [*_excited(layer), *_rules(layer), *_remarks(layer, explanation.watched)]
+            )
+            continue
+        lines += hanging(head, column, [*_excited(layer), "the first row that fits decides"])
+        lines += ["", *decision_table(layer, " " * (digits + 2)), ""]
+        indent = " " * column
+        lines += [
+            line
+            for each in _remarks(layer, explanation.watched)
+            for line in wrapped(each, indent, indent + "  ")
+        ]
+    return lines
 
 
-def _sentences(layer: LayerInWords) -> list[str]:
-    """Return what a layer does, what higher layers prevent and what it expects; each text starts a line."""
-    excited = [] if layer.excited is None else [f"when {layer.excited}:"]
-    expects = [] if layer.expects is None else [f"Expects afterwards: {layer.expects}"]
-    return [*excited, *_rules(layer), *_remarks(layer), *expects]
+def _n_inputs(layer: LayerInWords) -> int:
+    return len({condition.input for rule in layer.rules for condition in rule.when})
+
+
+def _excited(layer: LayerInWords) -> list[str]:
+    return [] if layer.excited is None else [f"when {layer.excited}:"]
 
 
 def _rules(layer: LayerInWords) -> list[str]:
+    """Return what a behavior does; each text starts a line."""
     if layer.counted:
         n_cells = sum(counted.cells for counted in layer.counted)
         counts = [f"{counted.decision} in {counted.cells:,}" for counted in layer.counted]
@@ -75,47 +117,64 @@ def _rules(layer: LayerInWords) -> list[str]:
     if not special:
         return ["does nothing" if last.decision == NO_ACTION_TEXT else f"always {last.decision}"]
     if last.decision == NO_ACTION_TEXT and len(decisions) == 1:
-        return _alternatives(f"{special[0].decision} where ", [_where(rule, layer) for rule in special])
+        return _alternatives(f"{special[0].decision} where ", [rule.where for rule in special])
     if decisions == {NO_ACTION_TEXT}:
         return _alternatives(f"{last.decision} except where ", [rule.where for rule in special])
-    lines = [f"{rule.decision} where {_where(rule, layer)}" for rule in special]
-    return [lines[0], *(f"else {line}" for line in lines[1:]), f"else {last.decision}{_mark(last, layer)}"]
+    lines = [f"{rule.decision} where {rule.where}" for rule in special]
+    return [lines[0], *(f"else {line}" for line in lines[1:]), f"else {last.decision}"]
 
 
 def _alternatives(start: str, conditions: Sequence[str]) -> list[str]:
     return [start + conditions[0], *(f"  or {condition}" for condition in conditions[1:])]
 
 
-def _where(rule: RuleInWords, layer: LayerInWords) -> str:
-    return rule.where + _mark(rule, layer)
+def _remarks(layer: LayerInWords, watched: Watched | None) -> list[str]:
+    """Return what higher layers always prevent, what was never asked, and what the behavior expects."""
+    expects = [] if layer.expects is None else [f"Expects afterwards: {layer.expects}"]
+    return [*_overruled(layer), *_never_asked(layer, watched), *expects]
 
 
-def _mark(rule: RuleInWords, layer: LayerInWords) -> str:
-    return " (overruled)" if rule.overruled and layer.cells else ""
-
-
-def _remarks(layer: LayerInWords) -> list[str]:
-    """Return what higher layers always prevent, or what is left, whichever is shorter."""
-    if not layer.overruled_by:
-        return []
-    by = join_words(layer.overruled_by, "or")
-    if not layer.cells:
+def _overruled(layer: LayerInWords) -> list[str]:
+    by = join_words(layer.overruled_by, "or") if layer.overruled_by else "layers above"
+    if layer.overruled_by and not layer.cells:
         one = "one of " if len(layer.overruled_by) > 1 else ""
         return [f"Never controls: {one}{by} above always does."]
-    if not layer.overruled:
-        return [f"Overruled by {by}."]
-    lost, left = ("; or where ".join(conditions) for conditions in (layer.overruled, layer.effective))
+    if not layer.covered:
+        return []
+    lost, left = ("; or where ".join(conditions) for conditions in (layer.covered, layer.effective))
+    if min(map(len, filter(None, (lost, left)))) > LONG:
+        return [f"Overruled by {by} in part."]
     if layer.effective and len(left) < len(lost):
         return [f"Controls only where {left}; otherwise overruled by {by}."]
     return [f"Overruled by {by} where {lost}."]
 
 
+def _never_asked(layer: LayerInWords, watched: Watched | None) -> list[str]:
+    n_cells = layer.kinds.never_asked
+    if not n_cells or watched is None:
+        return []
+    cells = "1 cell was" if n_cells == 1 else f"{n_cells:,} cells were"
+    start = f"{cells} never asked in {_episodes(watched)}"
+    others = [f"{each.decision} where {each.where}" for each in layer.never_asked if not each.agrees]
+    if not others:
+        return [f"({start}; the rules hold there too.)"]
+    return [f"({start}; there the table says {'; '.join(others)}.)"]
+
+
+def _episodes(watched: Watched) -> str:
+    return "1 episode" if watched.episodes == 1 else f"{watched.episodes:,} episodes"
+
+
 def _control(explanation: Explanation) -> list[str]:
     """Return which behavior controls in how many joint cells, and where nobody does."""
+    return [*_situations(explanation), *_time(explanation)]
+
+
+def _situations(explanation: Explanation) -> list[str]:
     if explanation.nobody_cells is None:
         size = f"about 10^{len(str(explanation.joint_size)) - 1}"
         text = f"The behaviors can tell {size} situations apart, too many to say who controls in which."
-        return _wrapped(text)
+        return wrapped(text)
     counts = [(layer.behavior, layer.cells) for layer in explanation.layers if layer.cells]
     counts += [("nobody", explanation.nobody_cells)] if explanation.nobody_cells else []
     (first, cells), *others = counts
@@ -123,7 +182,21 @@ def _control(explanation: Explanation) -> list[str]:
         return ["Nobody ever controls." if first == "nobody" else f"{first} always controls."]
     shares = [f"{first} controls {cells}", *(f"{name} {count}" for name, count in others)]
     text = f"Of the {explanation.joint_size} situations that the behaviors can tell apart, {join_words(shares, 'and')}."
-    return [*_wrapped(f"{text} (This counts situations, not time.)"), *_nobody(explanation.nobody)]
+    return [*wrapped(f"{text} (This counts situations, not time.)"), *_nobody(explanation.nobody)]
+
+
+def _time(explanation: Explanation) -> list[str]:
+    """Return the share of time that each behavior controlled."""
+    watched = explanation.watched
+    if watched is None:
+        return []
+    steps = max(1, watched.robot_steps)
+    counts = [(layer.behavior, layer.controlled or 0) for layer in explanation.layers]
+    counts += [("nobody", watched.nobody)] if watched.nobody else []
+    ordered = sorted(counts, key=lambda each: -each[1])
+    (first, share), *others = [(name, f"{100 * count / steps:.3g} %") for name, count in ordered]
+    shares = [f"{first} controlled {share} of the time", *(f"{name} {share}" for name, share in others)]
+    return wrapped(f"In {_episodes(watched)}, {join_words(shares, 'and')}.")
 
 
 def _nobody(conditions: Sequence[str]) -> list[str]:
@@ -132,10 +205,18 @@ def _nobody(conditions: Sequence[str]) -> list[str]:
     n_more = len(conditions) - MAX_PLACES
     listed = [*conditions[:MAX_PLACES], *([f"in {n_more} more places"] if n_more > 0 else [])]
     return [
-        wrapped
-        for line in _alternatives("Nobody controls where ", listed)
-        for wrapped in _wrapped(line, "", "    ")
+        line for each in _alternatives("Nobody controls where ", listed) for line in wrapped(each, "", "    ")
     ]
+
+
+def _useless(useless: Sequence[Useless]) -> list[list[str]]:
+    lines = [line for each in useless for line in wrapped(_useless_text(each), "  ", "    ")]
+    return [["What it could do without", *lines]] if lines else []
+
+
+def _useless_text(useless: Useless) -> str:
+    what = f"{useless.behavior}, {useless.what}" if useless.what else useless.behavior
+    return f"{what}: {useless.why}{f' ({useless.worth})' if useless.worth else ''}"
 
 
 def _glossary(title: str, entries: Sequence[GlossaryEntry]) -> list[list[str]]:
@@ -143,7 +224,7 @@ def _glossary(title: str, entries: Sequence[GlossaryEntry]) -> list[list[str]]:
     lines = [
         line
         for word, meaning in entries
-        for line in _hanging(f"  {word:<{width}}  ", width + 4, _parts(meaning, LINE_WIDTH - width - 4))
+        for line in hanging(f"  {word:<{width}}  ", width + 4, _parts(meaning, LINE_WIDTH - width - 4))
     ]
     return [[title, *lines]] if lines else []
 
@@ -151,24 +232,3 @@ def _glossary(title: str, entries: Sequence[GlossaryEntry]) -> list[list[str]]:
 def _parts(meaning: str, width: int) -> list[str]:
     """Return a meaning on one line if it fits, else each of its cells or states on a line."""
     return [meaning] if len(meaning) <= width else meaning.split("; ")
-
-
-def _hanging(head: str, column: int, sentences: Sequence[str]) -> list[str]:
-    """Return sentences, each on lines of its own from a column on; the head is before the first, or above it."""
-    indent = " " * column
-    lines = [line for sentence in sentences for line in _wrapped(sentence, indent, indent + "  ")]
-    return [head + lines[0][column:], *lines[1:]] if len(head) == column else [head.rstrip(), *lines]
-
-
-def _wrapped(text: str, first: str = "", rest: str = "") -> list[str]:
-    """Return a text in as many indented lines as it needs; its leading spaces are kept."""
-    text = escape(text)
-    lead = " " * (len(text) - len(text.lstrip(" ")))
-    return wrap(
-        text.lstrip(" "),
-        LINE_WIDTH,
-        initial_indent=first + lead,
-        subsequent_indent=rest + lead,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )

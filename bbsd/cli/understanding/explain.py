@@ -1,16 +1,63 @@
 """`bbsd explain`."""
 
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
 import bbsd
-from bbsd.cli.options import AsFormat, DesignFile, Overrides, ResultFormat, Seed
+from bbsd.cli.options import DesignFile, Overrides, Seed
 from bbsd.cli.output import show
 from bbsd.report.plain import json_text
 
 
-def explain(
-    spec: DesignFile, seed: Seed = 0, overrides: Overrides = None, form: AsFormat = ResultFormat.TEXT
-) -> None:
-    """Describe in words what a design does, layer by layer."""
-    from bbsd.explanation import explanation_text
+class ExplanationFormat(StrEnum):
+    """How an explanation is printed."""
 
-    explanation = bbsd.explain(spec, seed=seed, overrides=overrides or ())
-    show(json_text(explanation.to_plain()) if form is ResultFormat.JSON else explanation_text(explanation))
+    TEXT = "text"
+    TABLE = "table"
+    TREE = "tree"
+    MERMAID = "mermaid"
+    DOT = "dot"
+    JSON = "json"
+
+
+def explain(
+    spec: DesignFile,
+    seed: Seed = 0,
+    overrides: Overrides = None,
+    episodes: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="Count in N episodes how often each cell is asked.",
+            show_default="what the run has kept",
+        ),
+    ] = None,
+    form: Annotated[
+        ExplanationFormat,
+        typer.Option(
+            "--format",
+            help="Sentences; decision tables, and the whole as one table; decision trees; diagrams; or JSON.",
+        ),
+    ] = ExplanationFormat.TEXT,
+) -> None:
+    """Describe what a design does, layer by layer, by the shortest rules that say it, and what it could do without.
+
+    Of a run, it says how often each behavior controlled; of another file with --episodes.
+    """
+    from bbsd.explanation import dot_text, explanation_text, mermaid_text, table_text, tree_text
+
+    explanation = bbsd.explain(spec, seed=seed, episodes=episodes or 0, overrides=overrides or ())
+    if form is ExplanationFormat.JSON:
+        show(json_text(explanation.to_plain()))
+        return
+    texts = {
+        ExplanationFormat.TEXT: explanation_text,
+        ExplanationFormat.TABLE: table_text,
+        ExplanationFormat.TREE: tree_text,
+        ExplanationFormat.MERMAID: mermaid_text,
+        ExplanationFormat.DOT: dot_text,
+    }
+    show(texts[form](explanation))

@@ -3,8 +3,9 @@ import json
 import numpy as np
 import pytest
 
-from bbsd.architecture import Architecture, joint_space, policy
-from bbsd.explanation import RuleInWords, explain_architecture
+from bbsd.architecture import Architecture, architecture_of, joint_space, policy
+from bbsd.architecture.visits import Visits
+from bbsd.explanation import Condition, explain_architecture
 from tests.unit.architecture.designs import SHIPPED, meaning_of, random_architecture, shipped, small
 
 TWO_INPUTS = """
@@ -30,11 +31,13 @@ def test_layers_come_from_the_highest_down():
 
 def test_rules_are_in_words():
     lower = explained(TWO_INPUTS, [[0, 2, 0, 0, 1, 1], [0, 1], [1], [1]], [0]).layers[0]
-    assert lower.rules == (
-        RuleInWords("a", "near and pace is not 0", overruled=False),
-        RuleInWords("b", "pace is 1", overruled=False),
-        RuleInWords("no action", "", overruled=False),
-    )
+    assert [(rule.decision, rule.where) for rule in lower.rules] == [
+        ("a", "near and pace is not 0"),
+        ("b", "pace is 1"),
+        ("no action", ""),
+    ]
+    assert lower.rules[0].when == (Condition("near", (1,), ("true",)), Condition("pace", (1, 2), ("1", "2")))
+    assert (lower.is_shortest, lower.words) == (True, 7)
 
 
 def test_behaviors_outside_the_structure_are_named():
@@ -60,33 +63,121 @@ UPPER_NEAR = """
 """
 
 
-def test_a_rule_that_is_always_overruled_is_marked():
+def test_what_is_always_overruled_makes_no_rule():
     lower = explained(UPPER_NEAR, [[0, 0, 2, 1, 1, 0], [0, 1]], [0, 1]).layers[-1]
-    assert [(rule.decision, rule.overruled) for rule in lower.rules] == [
-        ("a", True),
-        ("b", False),
-        ("no action", False),
-    ]
-    assert (lower.overruled, lower.overruled_by) == ((), ("upper",))
+    assert [(rule.decision, rule.where) for rule in lower.rules] == [("b", "pace is 2"), ("no action", "")]
+    assert (lower.kinds.count, lower.kinds.covered) == (3, 3)
+    assert lower.table == ("no action", "no action", "b", "", "", "")
 
 
 def test_cells_in_which_a_rule_is_always_overruled_are_named():
     lower = explained(UPPER_NEAR, [[1, 1, 1, 1, 1, 1], [0, 1]], [0, 1]).layers[-1]
-    assert (lower.overruled, lower.effective, lower.overruled_by) == (("near",), ("not near",), ("upper",))
+    assert (lower.covered, lower.effective, lower.overruled_by) == (("near",), ("not near",), ("upper",))
+    assert [(rule.decision, rule.where) for rule in lower.rules] == [("a", "")]
 
 
-def test_a_rule_of_which_any_cell_may_control_is_not_called_overruled():
+def test_rules_reach_over_cells_that_do_not_count():
     behaviors = """
   lower: {inputs: {tilt: "cut(x, 1, 2)", pace: "values(floor(x), 0, 3)"}, actions: {a: {x: 1}}}
   upper: {inputs: {tilt: "cut(x, 1, 2)"}, actions: {a: {x: 2}}}
 """
     lower = explained(behaviors, [[0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1], [1, 1, 0]], [0, 1]).layers[-1]
-    assert [(rule.where, rule.overruled) for rule in lower.rules] == [
-        ("tilt is from 2", False),
-        ("pace is 3", False),  # not where the rule before it holds as well
-        ("", False),
+    assert [rule.where for rule in lower.rules] == [""]
+    assert (lower.covered, lower.effective) == (("tilt is below 2",), ("tilt is from 2",))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_rules_say_what_the_table_says_wherever_it_counts(seed):
+    meaning = meaning_of(shipped("object_lifting"))
+    architecture = random_architecture(meaning, seed)
+    by_name = {module.name: index for index, module in enumerate(meaning.episode.modules)}
+    for layer in explain_architecture(meaning, architecture).layers:
+        module = meaning.episode.modules[by_name[layer.behavior]]
+        words = ["no action", *module.actions]
+        for cell, indices in enumerate(np.ndindex(*(len(cells) for cells in module.inputs.values()))):
+            at = dict(zip(module.inputs, indices, strict=True))
+            rule = next(
+                rule for rule in layer.rules if all(at[each.input] in each.cells for each in rule.when)
+            )
+            said = words[architecture.tables[by_name[layer.behavior]][cell]]
+            assert layer.table[cell] in ("", said)
+            assert rule.decision == said or not layer.table[cell]
+
+
+def test_the_hand_made_controller_is_the_five_rules_that_act():
+    meaning = meaning_of(shipped("object_lifting_hand"))
+    explanation = explain_architecture(meaning, architecture_of(meaning))
+    acting = [
+        (layer.behavior, rule.decision, rule.where)
+        for layer in explanation.layers
+        for rule in layer.rules
+        if rule.decision != "no action"
     ]
-    assert (lower.overruled, lower.effective) == (("tilt is below 2",), ("tilt is from 2",))
+    assert acting == [
+        ("stop_at_goal", "stop", "reached"),
+        ("slow_down", "slower", "place is highest and tilted"),
+        ("hurry_up", "faster", "place is lowest and tilted"),
+        ("do_not_go_fast", "cap", "pace is 5"),
+        ("push_more", "push", ""),
+    ]
+    assert [(row.behavior, row.decision, row.where) for row in explanation.rows] == acting
+    assert all(layer.is_shortest for layer in explanation.layers)
+    assert not explanation.useless
+
+
+def visits(asked, controlled, robot_steps=100):
+    arrays = ([np.array(each) for each in counts] for counts in (asked, controlled))
+    return Visits(10, robot_steps, *map(tuple, arrays))
+
+
+def with_visits(behaviors, tables, structure, visits):
+    tables = tuple(np.array(table, np.uint8) for table in tables)
+    meaning = meaning_of(small(behaviors))
+    return explain_architecture(meaning, Architecture(tables, np.array(structure)), visits)
+
+
+def test_cells_that_were_never_asked_make_no_rule_and_are_listed_apart():
+    counted = visits([[5, 0, 70, 0, 0, 0], [5, 20]], [[0, 0, 70, 0, 0, 0], [0, 20]])
+    explanation = with_visits(UPPER_NEAR, [[0, 1, 2, 1, 1, 1], [0, 1]], [0, 1], counted)
+    lower = explanation.layers[-1]
+    assert [(rule.decision, rule.where, rule.asked, rule.controlled) for rule in lower.rules] == [
+        ("b", "pace is 2", 70, 70),
+        ("no action", "", 5, 0),
+    ]
+    assert [(each.decision, each.where, each.agrees) for each in lower.never_asked] == [
+        ("a", "pace is 1", False)
+    ]
+    assert explanation.watched == (10, 100, 10)
+
+
+def test_the_whole_is_ordered_by_how_often_a_row_decided():
+    counted = visits([[5, 0, 70, 0, 0, 0], [5, 20]], [[0, 0, 70, 0, 0, 0], [0, 20]])
+    rows = with_visits(UPPER_NEAR, [[0, 1, 2, 1, 1, 1], [0, 1]], [0, 1], counted).rows
+    assert [(row.behavior, row.decision, row.where, row.controlled) for row in rows] == [
+        ("lower", "b", "pace is 2", 70),
+        ("upper", "a", "near", 20),
+        ("lower", "a", "pace is 1", 0),
+    ]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+@pytest.mark.parametrize("seed", range(5))
+def test_the_rows_are_the_whole_policy(name, seed):
+    meaning = meaning_of(shipped(name))
+    architecture, space = random_architecture(meaning, seed), joint_space(meaning)
+    modules = meaning.episode.modules
+    rows = explain_architecture(meaning, architecture).rows
+    expected = policy(space, architecture)
+    actions = [("nobody", ""), *((module.name, action) for module in modules for action in module.actions)]
+    projections = {module.name: each for module, each in zip(modules, space.projections, strict=True)}
+    for number, cell in zip(expected.tolist(), np.ndindex(*space.sizes), strict=True):
+        found = ("nobody", "")
+        for row in sorted(rows, key=lambda row: row.layer):
+            inputs = modules[[module.name for module in modules].index(row.behavior)].inputs
+            axes = dict(zip(inputs, projections[row.behavior].axes, strict=True))
+            if all(cell[axes[each.input]] in each.cells for each in row.when):
+                found = (row.behavior, row.decision)
+        assert found == actions[number]
 
 
 @pytest.mark.parametrize("name", SHIPPED)
@@ -107,7 +198,13 @@ def test_an_explanation_is_plain_data():
     assert plain["layers"][1]["rules"][0] == {
         "decision": "slower",
         "where": "place is highest and tilted",
+        "when": [
+            {"input": "place", "cells": [1], "labels": ["highest"]},
+            {"input": "tilted", "cells": [1], "labels": ["true"]},
+        ],
         "overruled": False,
+        "asked": None,
+        "controlled": None,
     }
     assert plain["inputs"][0] == ["reached", "height >= goal"]
 
@@ -147,4 +244,5 @@ def test_few_rules_of_a_large_table_are_in_words():
     table = np.zeros(100_000, int)
     table[[3, 70_000]] = 1
     lower = explained(FINE, [table, [0, 1]], [0]).layers[0]
-    assert lower.rules[0] == RuleInWords("a", "fine is 3 or 70000", overruled=False)
+    assert (lower.rules[0].decision, lower.rules[0].where) == ("a", "fine is 3 or 70000")
+    assert lower.rules[0].when == (Condition("fine", (3, 70_000), ("3", "70000")),)
