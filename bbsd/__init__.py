@@ -9,7 +9,19 @@ them.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bbsd.api import check, compare, compile, design, evaluate, explain, load, page, trace, worth  # noqa: A004
+    from bbsd.api import (
+        check,
+        compare,
+        compile,  # noqa: A004 - the verb
+        design,
+        evaluate,
+        explain,
+        load,
+        page,
+        trace,
+        watch,
+        worth,
+    )
 
 from bbsd.version import __version__
 
@@ -24,6 +36,7 @@ __all__ = [
     "load",
     "page",
     "trace",
+    "watch",
     "worth",
 ]
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     )
     from bbsd.api.specs import AnySpec, check, load
     from bbsd.api.tracing import trace
+    from bbsd.api.watching import watch
 
 HOMES = {
     "bbsd.api.appraising": ("worth",),
@@ -50,6 +51,7 @@ HOMES = {
         "SearchProgress",
     ),
     "bbsd.api.specs": ("AnySpec", "check", "load"),
+    "bbsd.api.watching": ("watch",),
     "bbsd.api.tracing": ("trace",),
 }
 """Where each name is from."""
@@ -75,6 +77,7 @@ __all__ = [
     "page",
     "price",
     "trace",
+    "watch",
     "worth",
 ]
 

@@ -21,6 +21,7 @@ from bbsd.cli.schema import schema
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
+from bbsd.cli.understanding.watch import watch
 from bbsd.cli.understanding.worth import worth
 from bbsd.version import __version__
 
@@ -41,6 +42,7 @@ app.command()(explain)
 app.command()(worth)
 app.command()(compare)
 app.command()(report)
+app.command()(watch)
 app.command()(check)
 app.command()(fmt)
 app.command()(config)

@@ -84,6 +84,14 @@ def design(
     plot: Annotated[
         bool, typer.Option("--plot", help="Also draw fitness and diversity over the generations: curves.png.")
     ] = False,
+    tensorboard: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Also write the metrics as event files of TensorBoard, at the end; bbsd watch does so meanwhile.",
+            show_default=False,
+        ),
+    ] = None,
     rival: Annotated[
         str | None,
         typer.Option(
@@ -111,6 +119,7 @@ def design(
 
     if plot:
         require_figure(Path(CURVES))
+    _make_folder(tensorboard)
     set_by_budget, within = read_budget(budget)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
     if spec.is_dir():
@@ -168,6 +177,7 @@ def design(
                     part = base / f"seed-{each}"
                     text = load(Source.read(str(spec)), seed=each, overrides=overrides)
                     several[each] = design_one(text, each, part, resume=resume and part.exists())
+                    _write_events(several[each], tensorboard and tensorboard / f"seed-{each}")
                 _show_seeds(several, as_json=as_json)
                 return
             designed = design_one(loaded, seed, out, resume=resume)
@@ -179,6 +189,7 @@ def design(
     _show(designed, seed, runs, as_json=as_json)
     if plot:
         _draw_curves(designed)
+    _write_events(designed, tensorboard)
 
 
 def _show_seeds(several: "Mapping[int, Designed]", *, as_json: bool) -> None:
@@ -253,6 +264,21 @@ def _draw_curves(designed: "Designed") -> None:
     from bbsd.runs.storage.folder import Folder
 
     draw_curves(Folder(designed.folder).lines(), designed.folder / CURVES)
+
+
+def _make_folder(folder: Path | None) -> None:
+    """Make a folder that is wanted, before time is spent on what comes into it."""
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+
+
+def _write_events(designed: "Designed", folder: Path | None) -> None:
+    if folder is None:
+        return
+    from bbsd.report.watching.events import EventFiles
+    from bbsd.runs.storage.watching import look
+
+    EventFiles(folder).update(look(designed.folder))
 
 
 def _show(designed: "Designed", seed: int, runs: int, *, as_json: bool) -> None:

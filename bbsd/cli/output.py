@@ -50,6 +50,11 @@ def show_table(table: "RenderableType") -> None:
     show("\n".join(line.rstrip() for line in capture.get().splitlines()))
 
 
+def output_console() -> "Console":
+    """Return the console of standard output."""
+    return _console(sys.stdout)
+
+
 def error_console() -> "Console":
     """Return the console of standard error."""
     return _console(sys.stderr)

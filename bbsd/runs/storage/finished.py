@@ -38,7 +38,7 @@ def design_file(path: Path) -> Path:
     if architecture.is_file():
         return architecture
     if (path / RUN_FILE).is_file():
-        raise NoDesign(f"the run in {path} has no answer yet: there is no {architecture}", _way_on(path))
+        raise NoDesign(f"the run in {path} has no answer yet: there is no {architecture}", way_on(path))
     raise NoDesign(
         f"{path} is a folder, and not that of a run: a run has the files {ARCHITECTURE} and {RUN_FILE}",
         _other_choices(path),
@@ -54,7 +54,7 @@ def run_content(path: Path) -> dict[str, Any]:
     return content if isinstance(content, dict) else {}
 
 
-def _way_on(path: Path) -> str:
+def way_on(path: Path) -> str:
     """Return how a run without an answer is continued, and what there is of it until then."""
     content = run_content(path)
     runs, overrides = content.get("runs", 1), content.get("set", [])

@@ -1,0 +1,65 @@
+"""Watch a run that another process writes."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bbsd.api.specs import load
+from bbsd.errors import SpecError, UsageError
+from bbsd.runs.storage.finished import SPEC, run_content
+from bbsd.runs.storage.watching import is_run, look
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.runs.storage.watching import Watched
+
+INTERVAL = 0.5
+"""Seconds between two looks by default."""
+
+
+class NoRun(UsageError):
+    """A folder in which no run is or will be."""
+
+    advice = "give the folder that bbsd design writes, as it names it with --out or below runs/"
+
+
+def watch(run: str | Path, *, interval: float = INTERVAL) -> Iterator[Watched]:
+    """Yield how far a design is, now and after each change, until it is done or stopped.
+
+    Nothing is written, and the folder's lock is not taken: a run is the same whether it is watched or not.
+
+    Args:
+        run: The folder of the run, which may be empty still.
+        interval: Seconds between two looks.
+
+    Raises:
+        NoRun: there is no such folder, or it is another one.
+    """
+    folder = Path(run)
+    if not is_run(folder):
+        what = "is no folder of a run" if folder.is_dir() else "is no folder"
+        raise NoRun(f"{folder} {what}")
+    before = None
+    while True:
+        now = look(folder)
+        if now != before:
+            yield now
+            before = now
+        if now.state in ("done", "stopped"):
+            return
+        time.sleep(interval)
+
+
+def generations(run: str | Path) -> int:
+    """Return how many generations each run of a design has; 0 where that cannot be told, or it has none."""
+    folder, content = Path(run), run_content(Path(run))
+    overrides = content.get("set", [])
+    try:
+        loaded = load(folder / SPEC, overrides=[str(each) for each in overrides])
+    except (SpecError, OSError, TypeError):
+        return 0
+    design = loaded.spec.design
+    return design.coevolution.generations if design.chosen_method == "paper" else 0

@@ -1,0 +1,1 @@
+"""A run that goes on, as it is watched."""
