@@ -1,6 +1,7 @@
 // Which behavior controlled each robot at each step, as bands in its color and pattern; × where an expectation failed.
 
-const BAND = 20, GAP = 4, AXIS = 20;
+const MANY = DATA.robots > 8;
+const BAND = MANY ? 11 : 20, GAP = MANY ? 3 : 4, AXIS = 20;
 
 function bands(slider) {
   const canvas = element("canvas", { id: "bands", role: "img", "aria-label": "Which behavior controlled each robot at each step; the table below says the same" });
@@ -18,7 +19,7 @@ function bands(slider) {
     const box = canvas.getBoundingClientRect();
     return 1 + Math.floor(((event.clientX - box.left) / box.width) * replay.steps);
   });
-  return element("div", { class: "bands" }, names, surface, element("div", { class: "slider" }, slider));
+  return element("div", { class: MANY ? "bands many" : "bands" }, names, surface, element("div", { class: "slider" }, slider));
 }
 
 function drawBands(canvas, width) {

@@ -27,9 +27,9 @@ function key(entries) {
 }
 
 // The values of an episode over its steps: a chart for each name, a line for each robot.
-const MOST_CHARTS = 12;
+const BESIDE = 4, MOST_CHARTS = 24;
 
-function valueCharts(name = null) {
+function valueCharts(first, last) {
   const box = element("div", { class: "values" });
   const plots = new Set();
   const place = (plot) => {
@@ -42,8 +42,8 @@ function valueCharts(name = null) {
     for (const each of replay.episode.values) {
       if (each.column.some((value) => typeof value === "number")) groups.set(each.name, [...(groups.get(each.name) ?? []), each]);
     }
-    const shown = [...groups].slice(0, MOST_CHARTS);
-    const left = groups.size - shown.length;
+    const shown = [...groups].slice(first, last);
+    const left = last === MOST_CHARTS ? groups.size - first - shown.length : 0;
     const labels = new Set(); // a key for each set of lines, once
     box.replaceChildren(...shown.map(([title, each]) => valueChart(title, each, isNew(labels, each), (plot) => { plots.add(plot); place(plot); })),
       left ? element("p", { class: "note" }, `${counted(left, "further value")} in the table of this step`) : "");

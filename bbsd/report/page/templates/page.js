@@ -23,13 +23,16 @@ function head() {
 function replaySection() {
   const { controls, slider } = transport();
   const hasScene = Boolean(DATA.episodes[0].scene);
-  const picture = hasScene ? element("figure", { class: "above" }, element("figcaption", {}, "From above"), fromAbove()) : valueCharts();
+  const picture = hasScene ? element("figure", { class: "above" }, element("figcaption", {}, "From above"), fromAbove()) : valueCharts(0, BESIDE);
   const right = element("div", { class: hasScene ? "right first" : "right" }, robotList(), picture);
   const left = element("div", { class: "left" }, whySentence(), architecture());
   const tables = [live("Table: why, layer by layer", whyTable), live("Table: values and reinforcement of this step", valuesTable),
     live("Table: share of control in this episode", shareTable), live("Table: who controlled when", controlTable)];
   const notes = DATA.notes.map((note) => element("p", { class: "note" }, note));
-  const curves = hasScene ? [element("details", { class: "behind" }, element("summary", {}, "Values over the steps"), valueCharts())] : [];
+  const from = hasScene ? 0 : BESIDE;
+  const names = new Set(DATA.episodes[0].values.filter((each) => !each.column.w).map((each) => each.name));
+  const curves = names.size > from ? [element("details", { class: "behind" },
+    element("summary", {}, from ? "Further values over the steps" : "Values over the steps"), valueCharts(from, MOST_CHARTS))] : [];
   return section("replay", "What it does, and why", controls, bands(slider), element("p", { class: "note" },
     "Point at a band, click it, or use the arrow keys: the layers show why that step went as it did. ",
     `${SIGNS.controls} controls, ${SIGNS.suppressed} suppressed by a higher layer, ${SIGNS.leaves} no action, ${SIGNS.calm} not excited.`),
