@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bbsd.api.comparing import compare
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from bbsd.compiler import DetailedOutcome, Problem
     from bbsd.evaluation import Evaluation, Interval, Rank, Trace
     from bbsd.explanation import Explanation
+    from bbsd.explanation.comparison import Comparison
     from bbsd.language.loading import Loaded
 
 RANDOM_AGENTS = 200
@@ -49,9 +51,8 @@ class Replay:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """The run that a design is from: the folder's name, what `run.json` says, its metrics and its spec."""
+    """The run that a design is from: what `run.json` says, its metrics and its spec."""
 
-    name: str
     content: dict[str, Any]
     metrics: list[dict[str, Any]]
     spec: Loaded
@@ -75,12 +76,17 @@ class Page:
     """The worst, the median and the best episode."""
     run: Run | None
     """The run that the design is from, None where it is a file."""
+    comparison: Comparison | None
+    """What another design does and earns beside this one, None where none was given."""
+    other: str
+    """The name of the other design's file or folder, '' without one."""
     seed: int
     overrides: tuple[str, ...]
 
 
 def page(
     design: AnySpec,
+    other: AnySpec | None = None,
     *,
     seed: int = 0,
     episodes: int = EPISODES_OF_DESIGN,
@@ -91,6 +97,7 @@ def page(
 
     Args:
         design: A spec without holes, or the folder of a run.
+        other: Another design to compare it with.
         seed: Seed of the episodes, and of the draws in constants.
         episodes: Number of episodes of the evaluation, as in `evaluate`.
         overrides: Values that replace those of the spec.
@@ -119,7 +126,7 @@ def page(
         measured = evaluation(problem, reported(outcomes), 1)
     earned = np.concatenate(returns)
     return Page(
-        name=_name(design, loaded),
+        name=_name(design),
         loaded=loaded,
         architecture=architecture,
         explanation=explain(loaded),
@@ -127,13 +134,17 @@ def page(
         returns=earned,
         replays=_replays(problem, architecture, earned, seed, generation),
         run=_run(design, seed),
+        comparison=None
+        if other is None
+        else compare(loaded, other, episodes=max(2, episodes), seed=seed, overrides=overrides),
+        other="" if other is None else _name(other),
         seed=seed,
         overrides=tuple(overrides),
     )
 
 
-def _name(design: AnySpec, loaded: Loaded) -> str:
-    return Path(loaded.source.file if not isinstance(design, str | Path) else design).resolve().name
+def _name(design: AnySpec) -> str:
+    return Path(design if isinstance(design, str | Path) else design.source.file).resolve().name
 
 
 def _replays(
@@ -162,4 +173,4 @@ def _run(design: AnySpec, seed: int) -> Run | None:
     made = folder.design()
     spec = load(made.spec, seed=made.seed, overrides=made.overrides)
     beside = evaluate(spec, seed=seed, fill="random", agents=RANDOM_AGENTS)
-    return Run(folder.path.resolve().name, folder.read_run_file(), folder.lines(), spec, beside.returns)
+    return Run(folder.read_run_file(), folder.lines(), spec, beside.returns)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import DesignFile, Overrides, Seed
+from bbsd.cli.options import DesignFile, Overrides, Seed, spec_files
 from bbsd.cli.output import error_console, require_writable_file, show
 from bbsd.errors import escape
 from bbsd.files import write_text_whole
@@ -14,6 +14,15 @@ from bbsd.files import write_text_whole
 
 def report(
     design: DesignFile,
+    other: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[OTHER]",
+            help="Another design, to compare the first one with.",
+            show_default=False,
+            autocompletion=spec_files,
+        ),
+    ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="PAGE.html", help="The file of the page.")
     ] = Path("page.html"),
@@ -29,7 +38,9 @@ def report(
     from bbsd.report.progress import episode_listener
 
     with episode_listener(error_console()) as listener:
-        page = bbsd.page(design, seed=seed, episodes=episodes, overrides=overrides or (), progress=listener)
+        page = bbsd.page(
+            design, other, seed=seed, episodes=episodes, overrides=overrides or (), progress=listener
+        )
     from bbsd.report.page import page_text
 
     write_text_whole(output, page_text(page), through_links=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
+from bbsd.report.comparison import comparison_plain
 from bbsd.report.page.behaviors import behaviors_plain, commands_plain, inputs_plain
 from bbsd.report.page.episodes import episode_plain
 from bbsd.report.page.origin import repeat_plain, spec_plain
@@ -35,10 +36,19 @@ def page_plain(page: Page, most_steps: int) -> dict[str, Plain]:
         "commands": commands_plain(page),
         "episodes": [episode_plain(replay, page.loaded.meaning, most_steps) for replay in page.replays],
         "notes": _notes(page, most_steps),
+        "comparison": _comparison_plain(page),
         "curves": curves_plain(page.run.metrics) if page.run else None,
         "spec": spec_plain(page),
         "repeat": repeat_plain(page),
     }
+
+
+def _comparison_plain(page: Page) -> Plain:
+    if page.comparison is None:
+        return None
+    a, b = page.name, page.other
+    plain = comparison_plain(page.comparison)
+    return {**plain, "a": f"{a} (A)" if a == b else a, "b": f"{b} (B)" if a == b else b}
 
 
 def _notes(page: Page, most_steps: int) -> list[Plain]:

@@ -27,6 +27,8 @@ MODULES = (
     "bands.js",
     "scene.js",
     "charts.js",
+    "worth.js",
+    "comparison.js",
     "page.js",
 )
 """The parts of the page's script, in this order."""

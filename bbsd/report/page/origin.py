@@ -77,7 +77,16 @@ def repeat_plain(page: Page) -> dict[str, Plain]:
 
 
 def _report_command(page: Page) -> str:
-    words = ["bbsd", "report", page.name, "-o", "page.html", "--seed", str(page.seed)]
+    words = [
+        "bbsd",
+        "report",
+        page.name,
+        *([page.other] if page.other else []),
+        "-o",
+        "page.html",
+        "--seed",
+        str(page.seed),
+    ]
     words += ["--episodes", str(page.evaluation.episodes)]
     return shlex.join([*words, *(word for override in page.overrides for word in ("--set", override))])
 

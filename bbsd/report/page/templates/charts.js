@@ -4,7 +4,7 @@ const LINE_DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3], [4, 4], [12, 4], [1, 3], 
 const GRADES = (index) => theme(`module-${index % COLORS}`);
 
 function axisStyle(more = {}) {
-  return { stroke: theme("faint"), grid: { stroke: theme("line"), width: 1 }, ticks: { stroke: theme("line"), width: 1, size: 4 }, font: `12px ${theme("font")}`, labelFont: `12px ${theme("font")}`, labelSize: 18, size: more.label ? 46 : 28, ...more };
+  return { stroke: theme("faint"), grid: { stroke: theme("line"), width: 1 }, ticks: { stroke: theme("line"), width: 1, size: 4 }, font: `12px ${theme("font")}`, labelFont: `12px ${theme("font")}`, labelSize: 18, size: 28, ...more };
 }
 
 // `options()` and `data` as uPlot has them; `made` is told of each new chart.

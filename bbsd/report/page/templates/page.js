@@ -69,6 +69,9 @@ function repeat() {
 
 head();
 document.getElementById("main").append(replaySection(), earnings(),
+  ...(DATA.worth ? [worthSection(DATA.worth)] : []),
+  ...(DATA.faults ? [faultsSection(DATA.faults)] : []),
+  ...(DATA.comparison ? [comparisonSection(DATA.comparison)] : []),
   ...(DATA.curves ? [section("progress", "How it was found", ...progress(DATA.curves))] : []),
   specText(), repeat());
 document.getElementById("foot").append(element("p", { class: "note" }, `bbsd ${DATA.version}. This file is whole: it needs no other file and no network.`));
