@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bbsd.api.appraising import worth
 from bbsd.api.comparing import compare
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.evaluating import evaluate
@@ -18,6 +19,7 @@ from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import agents_of, chosen_episode, detailed_outcomes, evaluation, trace
 from bbsd.evaluation.choosing import RANKS
+from bbsd.evaluation.situations import TooLongToWatch
 from bbsd.evaluation.streams import episode_key, evaluation_keys
 from bbsd.runs.storage.folder import Folder
 
@@ -31,8 +33,11 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation, Interval, Rank, Trace
     from bbsd.explanation import Explanation
     from bbsd.explanation.comparison import Comparison
+    from bbsd.explanation.worth import Worth
     from bbsd.language.loading import Loaded
 
+WORTH_EPISODES = 200
+"""Episodes at most of the worth of a design: there are dozens of changes, each of which runs them all."""
 RANDOM_AGENTS = 200
 """Random agents beside the design of a run."""
 
@@ -76,6 +81,8 @@ class Page:
     """The worst, the median and the best episode."""
     run: Run | None
     """The run that the design is from, None where it is a file."""
+    worth: Worth | None
+    """What each part is worth, None where an episode has too many steps to record who is excited."""
     comparison: Comparison | None
     """What another design does and earns beside this one, None where none was given."""
     other: str
@@ -134,6 +141,7 @@ def page(
         returns=earned,
         replays=_replays(problem, architecture, earned, seed, generation),
         run=_run(design, seed),
+        worth=_worth(loaded, seed, min(max(2, episodes), WORTH_EPISODES)),
         comparison=None
         if other is None
         else compare(loaded, other, episodes=max(2, episodes), seed=seed, overrides=overrides),
@@ -163,6 +171,13 @@ def _replays(
         traced = trace(plain, architecture, key, generation)
         replays.append(Replay(rank, number, float(returns[number]), traced))
     return tuple(replays)
+
+
+def _worth(loaded: Loaded, seed: int, episodes: int) -> Worth | None:
+    try:
+        return worth(loaded, episodes=episodes, seed=seed)
+    except TooLongToWatch:
+        return None
 
 
 def _run(design: AnySpec, seed: int) -> Run | None:

@@ -11,6 +11,7 @@ from bbsd.report.page.episodes import episode_plain
 from bbsd.report.page.origin import repeat_plain, spec_plain
 from bbsd.report.page.progress import curves_plain
 from bbsd.report.page.returns import earns_plain, histogram_plain
+from bbsd.report.worth import worth_plain
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ def page_plain(page: Page, most_steps: int) -> dict[str, Plain]:
         "commands": commands_plain(page),
         "episodes": [episode_plain(replay, page.loaded.meaning, most_steps) for replay in page.replays],
         "notes": _notes(page, most_steps),
+        "worth": None if page.worth is None else worth_plain(page.worth),
         "comparison": _comparison_plain(page),
         "curves": curves_plain(page.run.metrics) if page.run else None,
         "spec": spec_plain(page),

@@ -11,7 +11,7 @@ function comparisonSection(comparison) {
     element("p", {}, element("b", {}, moreOrLess(difference.mean, a, b)),
       `, 95 % interval ${between(difference)}, ${paired} (${number(comparison.episodes)}): ${number(earns.a.mean)} and ${number(earns.b.mean)}.`),
     ...comparison.notes.map((note) => element("p", { class: "note" }, note)),
-    estimates(`Difference of the return and of each reward term, ${b} minus ${a}`, ["", a, b, "difference", "95 % interval"],
+    estimates(`Difference of the return and of each reward term, ${b} minus ${a}`, ["what", a, b, "difference", "95 % interval"],
       [{ ...spread(difference), cells: ["return", number(earns.a.mean), number(earns.b.mean), change(difference), between(difference)] },
         ...Object.entries(comparison.reward_terms).map(([term, each]) => ({ ...spread(each.difference), cells: [term, given(each.a), given(each.b), change(each.difference), between(each.difference)] }))]),
     comparison.sources.length ? estimates("Which change the difference comes from", ["change", `what it adds to ${a}`, "95 % interval", `what it adds in ${b}`],

@@ -17,6 +17,7 @@ function head() {
     element("h1", {}, DATA.name),
     DATA.summary ? element("p", { class: "summary" }, DATA.summary) : "",
     earned(),
+    findings(DATA.worth?.findings),
     element("p", { class: "note" }, `${behaviors}. Measured in ${counted(DATA.earns.episodes, "new episode")} of ${number(DATA.earns.steps, 3)} steps on average.`));
 }
 

@@ -100,7 +100,7 @@ function robotList() {
     return element("li", { "data-robot": robot }, element("label", {}, input, element("span", {}, `robot ${robot}`), sample, who, does));
   });
   return element("fieldset", { class: "robots" }, element("legend", {}, DATA.robots > 1 ? "Robots, and who controls them now" : "Who controls now"),
-    element("ul", { id: "robots" }, ...rows));
+    element("ul", { id: "robots", class: DATA.robots > 8 ? "many" : "" }, ...rows));
 }
 
 // All values before and after a step, with what it earned.

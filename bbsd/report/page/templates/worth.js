@@ -14,7 +14,6 @@ function worthSection(worth) {
   const rules = worth.behaviors.flatMap((each) => each.rules.filter((rule) => rule.dropped).map((rule) => ({ behavior: each.behavior, ...rule })));
   return section("worth", "What each part is worth",
     element("p", { class: "note" }, `Each change runs the same ${counted(worth.episodes, "episode")} as the design; a change below 0 is a loss without the part.`),
-    findings(worth.findings),
     estimates("Change of the return if a behavior is held to No Action", ["behavior", "in control", "suppressed", "change", "95 % interval", "if at random"],
       worth.behaviors.map((each) => ({ ...spread(each.dropped), cells: [named(indexOf(each.behavior)), percent(each.control), percent(each.suppressed), change(each.dropped), between(each.dropped), change(each.replaced_at_random)] }))),
     rules.length ? estimates("Change of the return if a rule is dropped", ["rule", "in control", "change", "95 % interval"],
@@ -26,8 +25,8 @@ function worthSection(worth) {
 }
 
 function findings(all) {
-  if (!all.length) return "";
-  return element("ul", { class: "findings" }, ...all.map((each) =>
+  if (!all?.length) return "";
+  return element("ul", { class: "findings", "aria-label": "What stands out" }, ...all.map((each) =>
     element("li", { class: GRAVE.has(each.kind) ? "grave" : "" }, element("b", {}, each.kind), " ", each.text)));
 }
 
@@ -36,10 +35,10 @@ function orders(worth) {
   const names = worth.behaviors.map((each) => each.behavior);
   return [
     element("h3", {}, "What must stand above what"),
-    scrolling(partialOrder(names, above), "Partial order of the layers"),
+    above.length ? scrolling(partialOrder(names, above), "Partial order of the layers") : element("p", {}, "No layer must stand above another one, as far as these episodes tell."),
     behind("Table: what must stand above what", () => table("Pairs that all orders have in common which are not clearly worse", ["above", "below"], above, { left: [0, 1] })),
-    estimates("Change of the return if neighbors are exchanged", ["neighbors", "change", "95 % interval", ""],
-      worth.swaps.map((swap) => ({ ...spread(swap.change), cells: [`${swap.upper}, ${swap.lower}`, change(swap.change), between(swap.change), swap.proven_equal ? "proven equal by the tables" : ""] }))),
+    estimates("Change of the return if neighbors are exchanged", ["neighbors", "change", "95 % interval", "by the tables"],
+      worth.swaps.map((swap) => ({ ...spread(swap.change), cells: [`${swap.upper}, ${swap.lower}`, change(swap.change), between(swap.change), swap.proven_equal ? "equal" : ""] }))),
     behind("Table: the best orders", () => table(`The best of ${counted(tried, "order")} (${all ? "all" : "those with any two layers exchanged"})`, ["highest layer first", "change", "95 % interval", "do just the same"],
       best.map((order) => [order.structure.join(" "), change(order.change), between(order.change), order.alike]))),
   ];
