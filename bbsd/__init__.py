@@ -2,8 +2,8 @@
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
-`evaluate`, `explain`, `worth`, `compare`, `page` for `bbsd report`, and `trace` for one episode; `bbsd.api` documents
-them.
+`evaluate`, `explain`, `why`, `worth`, `compare`, `page` for `bbsd report`, and `trace` for one episode; `bbsd.api`
+documents them.
 """
 
 from typing import TYPE_CHECKING
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         page,
         trace,
         watch,
+        why,
         worth,
     )
 
@@ -37,6 +38,7 @@ __all__ = [
     "page",
     "trace",
     "watch",
+    "why",
     "worth",
 ]
 

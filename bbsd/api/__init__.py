@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bbsd.api.evaluating import evaluate
     from bbsd.api.explaining import explain
     from bbsd.api.paging import Page, page
+    from bbsd.api.reasons import why
     from bbsd.api.results import (
         AnyProgress,
         BestSoFar,
@@ -40,6 +41,7 @@ HOMES = {
     "bbsd.api.evaluating": ("evaluate",),
     "bbsd.api.explaining": ("explain",),
     "bbsd.api.paging": ("Page", "page"),
+    "bbsd.api.reasons": ("why",),
     "bbsd.api.results": (
         "AnyProgress",
         "BestSoFar",
@@ -78,6 +80,7 @@ __all__ = [
     "price",
     "trace",
     "watch",
+    "why",
     "worth",
 ]
 

@@ -8,7 +8,15 @@ from bbsd.api.compiling import located_reward_errors
 from bbsd.api.specs import AnySpec, load
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import Trace, agents_of, chosen_episode, episode_key, evaluation_keys, returns_of
+from bbsd.evaluation import (
+    NoSuchEpisode,
+    Trace,
+    agents_of,
+    chosen_episode,
+    episode_key,
+    evaluation_keys,
+    returns_of,
+)
 from bbsd.evaluation import trace as trace_episode
 
 if TYPE_CHECKING:
@@ -44,18 +52,32 @@ def trace(
     Raises:
         SpecError: with all mistakes of the spec.
         HolesLeft: the spec has holes.
+        NoSuchEpisode: the number is negative.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
-    number = (
-        episode
-        if isinstance(episode, int)
-        else chosen_episode(episode_returns(loaded, episodes, seed), episode)
-    )
+    number = episode_number(loaded, episode, episodes=episodes, seed=seed)
     problem = compile_meaning(loaded.meaning, compiled=False)
     key = episode_key(seed, number)
     return trace_episode(
         problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
     )
+
+
+def episode_number(
+    loaded: Loaded, which: int | Rank, *, episodes: int = EPISODES_OF_DESIGN, seed: int = 0
+) -> int:
+    """Return the number of an episode of `evaluate`: a given one, or the worst, median or best of the first.
+
+    Raises:
+        SpecError: a reward is not finite.
+        HolesLeft: the spec has holes.
+        NoSuchEpisode: the number is negative.
+    """
+    if not isinstance(which, int):
+        return chosen_episode(episode_returns(loaded, episodes, seed), which)
+    if which < 0:
+        raise NoSuchEpisode(f"there is no episode {which}")
+    return which
 
 
 def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: int = 0) -> NDArray[np.float64]:

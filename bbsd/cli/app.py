@@ -22,6 +22,7 @@ from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
 from bbsd.cli.understanding.watch import watch
+from bbsd.cli.understanding.why import why
 from bbsd.cli.understanding.worth import worth
 from bbsd.version import __version__
 
@@ -39,6 +40,7 @@ app.command()(new)
 app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
+app.command()(why)
 app.command()(worth)
 app.command()(compare)
 app.command()(report)

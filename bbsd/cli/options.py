@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -85,3 +85,23 @@ class ResultFormat(StrEnum):
 
 
 AsFormat = Annotated[ResultFormat, typer.Option("--format", help="Format of the output.")]
+
+
+def read_episode(text: str) -> int | Literal["worst", "median", "best"]:
+    """Return an episode's number, or the rank that names it; raise BadParameter for anything else."""
+    match text:
+        case "worst" | "median" | "best":
+            return text
+    if text.isascii() and text.isdecimal():
+        return int(text)
+    raise typer.BadParameter(f"{text!r} is neither a number from 0 nor worst, median or best")
+
+
+Episode = Annotated[
+    str,
+    typer.Option(
+        "--episode",
+        metavar="N|worst|median|best",
+        help="An episode of bbsd evaluate: its number from 0, or by its return among the first 1000.",
+    ),
+]

@@ -16,7 +16,7 @@ from tests.end_to_end.commands import bbsd, process
 
 SPEC = Path(__file__).parent / "specs" / "thermostat.yaml"
 HEAVY = ("numba", "numpy", "pydantic", "yaml", "rich", "matplotlib")
-COMMANDS = ("design", "evaluate", "explain", "check", "config", "compile")
+COMMANDS = ("design", "evaluate", "explain", "why", "check", "config", "compile")
 
 
 @pytest.fixture(scope="module")

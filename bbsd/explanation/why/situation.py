@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from bbsd.evaluation import Trace
+    from bbsd.evaluation.tracing import Value
     from bbsd.expression.node_data import Slot
-
-Value: TypeAlias = "float | int | bool | str"
 
 
 class NoSuchMoment(UsageError):
@@ -27,8 +26,8 @@ class Situation:
     excited: tuple[bool, ...]
     cells: tuple[int, ...]
     """Each behavior's cell in its own table, also where it is not excited."""
-    values: Mapping[str, Value | tuple[Value, ...]] = field(default_factory=dict)
-    """The robot's own state, its sensors, and the world, by name, as they were; those that are known."""
+    values: Mapping[str, Value | tuple[Value, ...]]
+    """The robot's own state, its sensors, and the world, by name; those that are known."""
 
 
 def situation_in(trace: Trace, step: int, robot: int) -> Situation:
@@ -37,8 +36,7 @@ def situation_in(trace: Trace, step: int, robot: int) -> Situation:
     Raises:
         NoSuchMoment: the episode has no such step, or the team no such robot.
     """
-    if not 0 <= robot < trace.robots:
-        raise NoSuchMoment(f"there is no robot {robot}: robots are counted from 0 to {trace.robots - 1}")
+    require_robot(robot, trace.robots)
     if not 1 <= step <= len(trace.steps):
         raise NoSuchMoment(f"there is no step {step}: the episode has steps 1 to {len(trace.steps)}")
     decisions = trace.decisions
@@ -49,16 +47,18 @@ def situation_in(trace: Trace, step: int, robot: int) -> Situation:
     )
 
 
+def require_robot(robot: int, robots: int) -> None:
+    """Raise NoSuchMoment where a team of so many robots does not have a robot of that index."""
+    if not 0 <= robot < robots:
+        known = f"robots are counted from 0 to {robots - 1}" if robots > 1 else "there is only robot 0"
+        raise NoSuchMoment(f"there is no robot {robot}: {known}")
+
+
 def values_of_robot(stored: Mapping[Slot, Value], robot: int) -> dict[str, Value | tuple[Value, ...]]:
     """Return the values that are a robot's own or the world's, by name; those of a list together."""
     by_name: dict[str, list[Value]] = {}
-    is_list = {slot.name: bool(slot.place) for slot in stored}
+    lists = {slot.name for slot in stored if slot.place}
     for slot, value in stored.items():
         if slot.robot in (None, robot):
             by_name.setdefault(slot.name, []).append(value)
-    return {name: tuple(values) if is_list[name] else values[0] for name, values in by_name.items()}
-
-
-def plain_values(values: Mapping[str, Value | tuple[Value, ...]]) -> dict[str, Value | Sequence[Value]]:
-    """Return values for JSON."""
-    return {name: [*value] if isinstance(value, tuple) else value for name, value in values.items()}
+    return {name: tuple(values) if name in lists else values[0] for name, values in by_name.items()}

@@ -177,18 +177,16 @@ def slots_read(stored: Stored, names: Names) -> Stored:
     }
 
 
-def decision_at(
-    now: Stored, beginning: Moment, names: Names, stored: Collection[str] | None = None
-) -> Moment:
-    """Return the snapshot: state and sensors are read from where the step before, or the start, stored them.
+def decision_at(now: Stored, beginning: Moment, names: Names) -> Moment:
+    """Return the snapshot: state and sensors are read from where the step before, or the start, stored them."""
+    return Moment(names, now, names.step, sensed=stored_sensors(beginning, names.spec.environment.sensors))
 
-    Where `stored` names sensors, all others are computed from the state and the world of the snapshot itself.
-    """
-    step, sensed = names.step, Sensed()
+
+def stored_sensors(beginning: Moment, sensors: Collection[str]) -> Sensed:
+    """Return the leaves that read sensors from where the step before, or the start, stored them."""
+    names, sensed = beginning.names, Sensed()
     for name, sensor in names.spec.environment.sensors.items():
-        if stored is not None and name not in stored:
-            continue
-        for robot in names.robots if name not in names.unusable else ():
+        for robot in names.robots if name in sensors and name not in names.unusable else ():
             if is_partition(sensor):
                 partition = beginning.partition(name, robot)
                 slot = names.graph.leaf("slot", Slot(name, robot), Kind.CELL, Level.LANE)
@@ -196,7 +194,7 @@ def decision_at(
             else:
                 value = beginning.value(name, robot)
                 sensed.values[name, robot] = read_slots(name, robot, value, names.graph)
-    return Moment(names, now, step, sensed=sensed)
+    return sensed
 
 
 def _act(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], names: Names) -> Stored:

@@ -14,10 +14,12 @@ from bbsd.language.meaning.episode import (
     modules_at,
     slots_read,
     starting_values,
+    stored_sensors,
 )
 from bbsd.language.meaning.moments import Moment
 from bbsd.language.meaning.names import Names
 from bbsd.language.meaning.order import names_used_in
+from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -37,9 +39,15 @@ def modules_in_a_situation(meaning: Meaning, given: Collection[str]) -> tuple[Mo
     """
     names = _names(meaning)
     first = starting_values(names)
-    beginning = Moment(names, first, names.graph.number(0), starting=True)
-    stored = {*given, *uncertain_sensors(meaning.spec)}
-    decision = decision_at(slots_read(first, names), beginning, names, stored)
+    beginning, now = Moment(names, first, names.graph.number(0), starting=True), slots_read(first, names)
+    sensed = stored_sensors(beginning, {*given, *uncertain_sensors(meaning.spec)})
+    # A decision reads what was sensed after the step before, which had the number before.
+    earlier = names.graph.apply("-", names.step, names.graph.number(1))
+    after = Moment(names, now, earlier, sensed=sensed)
+    for name, sensor in meaning.spec.environment.sensors.items():
+        for robot in names.robots:
+            (after.partition if is_partition(sensor) else after.value)(name, robot)
+    decision = Moment(names, now, names.step, sensed=after.sensed)
     kinds = {name: values[0].kind for name, values in first.items()}
     return tuple(modules_at(names, decision, kinds))
 

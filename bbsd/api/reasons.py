@@ -1,0 +1,80 @@
+"""Say why a robot did what it did."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.api.specs import AnySpec, load
+from bbsd.api.tracing import episode_number, trace
+from bbsd.architecture import architecture_of
+from bbsd.errors import UsageError
+from bbsd.explanation.why import Answer, answer_of, described_situation, situation_in
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from bbsd.evaluation import Rank
+    from bbsd.explanation.why.described import Given
+
+
+class NoMoment(UsageError):
+    """A why without a step, or with both a step and a described situation."""
+
+    advice = "give --step N (and --episode), or describe a situation with --at NAME=VALUE"
+
+
+def why(
+    spec: AnySpec,
+    *,
+    episode: int | Rank = 0,
+    step: int | None = None,
+    robot: int = 0,
+    at: Mapping[str, Given] | None = None,
+    unwanted: Sequence[str] = (),
+    wanted: Sequence[str] = (),
+    seed: int = 0,
+    overrides: Sequence[str] = (),
+) -> Answer:
+    """Return why a robot did what it did: what each layer perceived and wanted, and which one controlled.
+
+    Args:
+        spec: A spec without holes, or the folder of a run.
+        episode: An episode of `evaluate`, by its number from 0, or "worst", "median" or "best".
+        step: The step in it, from 1.
+        robot: The robot, from 0.
+        at: Instead of a step, the values of state, world, sensors by name, for all robots or a list with one for each.
+        unwanted: Actions or behaviors; for each, what would have had to be different for it not to control.
+        wanted: Actions or behaviors; for each, what would have had to be different for it to control.
+        seed: As in `evaluate`.
+        overrides: Values that replace those of the spec.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+        NoMoment: neither a step nor a situation is given, or both are.
+        NoSuchMoment: the episode has no such step, or the team no such robot.
+        BadSituation: a value is unknown, of a wrong form, or missing.
+        NoSuchAction: a name stands for nothing.
+        AsItWas: what is unwanted did not control, or what is wanted did.
+    """
+    if (step is None) is (not at):
+        raise NoMoment("a step of an episode or a situation is needed" if step is None else "both are given")
+    loaded = load(spec, seed=seed, overrides=overrides)
+    architecture = architecture_of(loaded.meaning)
+    number = None
+    if step is None:
+        generation = loaded.spec.design.coevolution.generations
+        situation = described_situation(loaded.meaning, at or {}, robot, generation)
+    else:
+        number = episode_number(loaded, episode, seed=seed)
+        situation = situation_in(trace(loaded, seed=seed, episode=number), step, robot)
+    return answer_of(
+        loaded.meaning,
+        architecture,
+        situation,
+        robot,
+        episode=number,
+        step=step,
+        unwanted=unwanted,
+        wanted=wanted,
+    )
