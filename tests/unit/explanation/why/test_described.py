@@ -119,9 +119,8 @@ def test_what_is_wrong_or_missing_is_told_by_name(given, message):
 
 
 def test_sensors_that_must_be_given_are_told():
-    with pytest.raises(
-        BadSituation, match="sonar, light .of sensors, those that draw or use before: sonar, light."
-    ) as error:
+    message = r"sonar, light \(of sensors, those that draw or use before: sonar, light\)"
+    with pytest.raises(BadSituation, match=message) as error:
         described_situation(meaning_named("mobile_robot_hand"), {}, 0, 1)
     assert error.value.advice == "add --at sonar=... --at light=..."
 
