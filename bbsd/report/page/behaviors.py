@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bbsd.architecture.boxes import first_match
-from bbsd.architecture.rules import boxes_of, sizes_of
+from bbsd.architecture.rules import sizes_of
+from bbsd.explanation.conditions import join_words
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Sequence
 
     from bbsd.api.paging import Page
-    from bbsd.explanation import LayerInWords
+    from bbsd.explanation import LayerInWords, RuleInWords
     from bbsd.language.field_types import Expression
     from bbsd.language.meaning.behaviors import Module
     from bbsd.report.plain import Plain
@@ -42,8 +43,6 @@ def _behavior_plain(page: Page, index: int, module: Module, layer: LayerInWords 
     table = page.architecture.tables[index]
     written = page.loaded.spec.behaviors[module.name]
     rules = layer.rules if layer is not None else ()
-    boxes, _ = boxes_of(table, module.inputs) if rules else ([], 0)
-    matched = first_match([box for box, _ in boxes], sizes_of(module.inputs)).ravel() if boxes else None
     is_listed = len(table) <= MOST_CELLS
     return {
         "name": module.name,
@@ -57,21 +56,35 @@ def _behavior_plain(page: Page, index: int, module: Module, layer: LayerInWords 
         "rules": [
             {"decision": rule.decision, "where": rule.where, "overruled": rule.overruled} for rule in rules
         ],
-        "rule_of_cell": _rules_of_cells(matched, len(table), len(rules)),
-        "remarks": [],
+        "rule_of_cell": _rules_of_cells(rules, module),
+        "decisions": table.tolist() if len(table) <= MOST_PLACES else [],
+        "remarks": [] if layer is None else _remarks(layer),
         "n_cells": len(table),
-        "table": table.tolist() if is_listed else None,
+        "is_listed": is_listed,
         "visits": _visits(page, index, len(table)) if is_listed else None,
     }
 
 
-def _rules_of_cells(matched: NDArray[np.int64] | None, n_cells: int, n_rules: int) -> Plain:
-    """Return for each cell the number of the rule that decides it; the last one is that for all other cells."""
-    if not n_rules or n_cells > MOST_PLACES:
+def _rules_of_cells(rules: Sequence[RuleInWords], module: Module) -> Plain:
+    """Return for each cell the number of the first rule that holds in it; None where there are none to mark."""
+    if not rules or module.n_cells > MOST_PLACES:
         return None
-    if matched is None:
-        return [0] * n_cells
-    return [*map(int, np.where(matched < 0, n_rules - 1, matched))]
+    boxes = []
+    for rule in rules:
+        named = {condition.input: condition.cells for condition in rule.when}
+        boxes.append(
+            tuple(named.get(name, tuple(range(len(cells)))) for name, cells in module.inputs.items())
+        )
+    return [*map(int, first_match(boxes, sizes_of(module.inputs)).ravel())]
+
+
+def _remarks(layer: LayerInWords) -> list[Plain]:
+    """Return what higher layers always prevent."""
+    if layer.cells == 0 and layer.overruled_by:
+        return [f"Never controls: {join_words(layer.overruled_by, 'or')} above always does."]
+    if layer.covered:
+        return [f"Higher layers always act where {'; or where '.join(layer.covered)}."]
+    return []
 
 
 def _visits(page: Page, index: int, n_cells: int) -> list[Plain]:

@@ -31,6 +31,15 @@ def page_plain(page: Page, most_steps: int) -> dict[str, Plain]:
         "earns": earns_plain(page),
         "returns": histogram_plain(page.returns),
         "behaviors": behaviors_plain(page),
+        "whole": [
+            {name: getattr(row, name) for name in ("layer", "behavior", "decision", "where", "excited")}
+            for row in sorted(page.explanation.rows, key=lambda row: -row.layer)
+        ],
+        "useless": [
+            {"kind": f"useless {each.kind}", "text": f"{each.what} of {each.behavior}: {each.why}"}
+            for each in page.explanation.useless
+            if each.kind == "input"
+        ],
         "layers": [order.index(layer.behavior) for layer in page.explanation.layers],
         "left_out": [*page.explanation.left_out],
         "inputs": inputs_plain(page),

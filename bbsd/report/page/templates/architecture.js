@@ -35,7 +35,7 @@ function layerCard(behavior, layer) {
   const dropped = DATA.worth?.behaviors.find((each) => each.behavior === about.name)?.dropped;
   if (dropped) card.append(element("p", { class: "note" }, `return without it: ${change(dropped)} (95 % interval ${between(dropped)})`));
   if (about.expects) card.append(element("p", { class: "note" }, "expects afterwards: ", element("code", {}, about.expects)));
-  if (about.inputs.length && about.table) card.append(live(`Decision table of ${about.name}`, () => decisionTable(behavior)));
+  if (about.inputs.length && about.is_listed) card.append(live(`Decision table of ${about.name}`, () => decisionTable(behavior)));
   const item = element("li", { "data-layer": layer, "data-behavior": about.name }, card);
   return {
     behavior, item, head,
@@ -44,7 +44,7 @@ function layerCard(behavior, layer) {
       this.part = part;
       item.dataset.state = part.state;
       state.textContent = `${SIGNS[part.state]} ${stateText(part)}`;
-      const fired = part.state === "calm" ? null : about.rule_of_cell?.[part.cell];
+      const fired = part.state === "calm" ? null : ruleOf(behavior, part.cell);
       rules.forEach((rule, index) => (index === fired ? rule.setAttribute("aria-current", "true") : rule.removeAttribute("aria-current")));
     },
   };
@@ -53,7 +53,7 @@ function layerCard(behavior, layer) {
 function decisionTable(behavior) {
   const about = DATA.behaviors[behavior];
   const now = partOf(behavior, replay.robot, replay.step).cell;
-  const rows = about.table.map((wish, cell) => [
+  const rows = about.decisions.map((wish, cell) => [
     element("span", {}, cell === now ? "▶ " : "", String(cell)),
     ...placesOf(behavior, cell).map((place, index) => about.inputs[index].cells[place]), wordOf(behavior, wish),
     percent(about.visits ? about.visits[cell] : null)]);
@@ -61,6 +61,13 @@ function decisionTable(behavior) {
     ["cell", ...about.inputs.map((input) => input.name), "decision", "time"], rows, { left: [0, ...about.inputs.map((_, index) => index + 1), about.inputs.length + 1] });
   made.querySelectorAll("tbody tr")[now]?.setAttribute("aria-current", "true");
   return made;
+}
+
+// The whole architecture as one table: of all rows that hold, the one of the highest layer counts.
+function wholeTable() {
+  const rows = DATA.whole.map((row) => [row.layer, named(indexOf(row.behavior)), row.decision,
+    [row.excited, row.where].filter(Boolean).join(" and ") || "always"]);
+  return table("Which command in which situation; of all rows that hold, the highest layer's counts", ["layer", "behavior", "does", "where"], rows, { left: [0, 1, 2, 3] });
 }
 
 // The inputs of all behaviors with their present cells.

@@ -17,7 +17,7 @@ function head() {
     element("h1", {}, DATA.name),
     DATA.summary ? element("p", { class: "summary" }, DATA.summary) : "",
     earned(),
-    findings(DATA.worth?.findings),
+    findings([...(DATA.worth?.findings ?? []), ...DATA.useless]),
     element("p", { class: "note" }, `${behaviors}. Measured in ${counted(DATA.earns.episodes, "new episode")} of ${number(DATA.earns.steps, 3)} steps on average.`));
 }
 
@@ -27,7 +27,7 @@ function replaySection() {
   const picture = hasScene ? element("figure", { class: "above" }, element("figcaption", {}, "From above"), fromAbove()) : valueCharts(0, BESIDE);
   const right = element("div", { class: hasScene ? "right first" : "right" }, robotList(), picture);
   const left = element("div", { class: "left" }, whySentence(), architecture());
-  const tables = [live("Table: why, layer by layer", whyTable), live("Table: values and reinforcement of this step", valuesTable),
+  const tables = [...(DATA.whole.length ? [behind("Table: the whole design, which command in which situation", wholeTable)] : []), live("Table: why, layer by layer", whyTable), live("Table: values and reinforcement of this step", valuesTable),
     live("Table: share of control in this episode", shareTable), live("Table: who controlled when", controlTable)];
   const notes = DATA.notes.map((note) => element("p", { class: "note" }, note));
   const from = hasScene ? 0 : BESIDE;

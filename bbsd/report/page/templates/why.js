@@ -40,10 +40,17 @@ function cellText(behavior, cell) {
   return placesOf(behavior, cell).map((place, index) => `${inputs[index].name} is ${inputs[index].cells[place]}`).join(", ");
 }
 
+// The rule that decides a cell; none where rules differ from the table, since higher layers always act there.
+function ruleOf(behavior, cell) {
+  const { rules, rule_of_cell: ruleOfCell, decisions } = DATA.behaviors[behavior];
+  const rule = ruleOfCell?.[cell] ?? -1;
+  return rules[rule]?.decision === wordOf(behavior, decisions[cell]) ? rule : -1;
+}
+
 // The condition of the rule that decides a cell; of a rule for all other cells, the cell itself.
 function reasonOf(behavior, cell) {
   const about = DATA.behaviors[behavior];
-  const rule = about.rules[about.rule_of_cell?.[cell]];
+  const rule = about.rules[ruleOf(behavior, cell)];
   if (rule?.where) return ` where ${rule.where}`;
   if (rule && about.rules.length === 1) return ", as always";
   const text = cellText(behavior, cell);

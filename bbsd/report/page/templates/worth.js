@@ -25,7 +25,7 @@ function worthSection(worth) {
 }
 
 function findings(all) {
-  if (!all?.length) return "";
+  if (!all.length) return "";
   return element("ul", { class: "findings", "aria-label": "What stands out" }, ...all.map((each) =>
     element("li", { class: GRAVE.has(each.kind) ? "grave" : "" }, element("b", {}, each.kind), " ", each.text)));
 }

@@ -141,7 +141,7 @@ def test_rules_of_cells_are_those_of_the_explanation(page):
     stop = plain["behaviors"][1]
     assert [rule["decision"] for rule in stop["rules"]] == ["halt", "no action"]
     assert stop["rule_of_cell"] == [1, 0]
-    assert stop["table"] == [0, 1]
+    assert stop["decisions"] == [0, 1]
     assert plain["inputs"] == [{"name": "far", "meaning": "x > 2", "users": [[1, 0]]}]
     assert plain["commands"] == ["v"]
     assert sum(stop["visits"]) == pytest.approx(1)
