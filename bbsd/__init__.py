@@ -2,8 +2,8 @@
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
-`evaluate`, `explain`, `why`, `worth`, `compare`, `page` for `bbsd report`, and `trace` for one episode; `bbsd.api`
-documents them.
+`evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `page` for `bbsd report`, and `trace` for one episode;
+`bbsd.api` documents them.
 """
 
 from typing import TYPE_CHECKING
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         explain,
         load,
         page,
+        tidy,
         trace,
         watch,
         why,
@@ -36,6 +37,7 @@ __all__ = [
     "explain",
     "load",
     "page",
+    "tidy",
     "trace",
     "watch",
     "why",

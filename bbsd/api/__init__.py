@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         SearchProgress,
     )
     from bbsd.api.specs import AnySpec, check, load
+    from bbsd.api.tidying import tidy
     from bbsd.api.tracing import trace
     from bbsd.api.watching import watch
 
@@ -54,6 +55,7 @@ HOMES = {
     ),
     "bbsd.api.specs": ("AnySpec", "check", "load"),
     "bbsd.api.watching": ("watch",),
+    "bbsd.api.tidying": ("tidy",),
     "bbsd.api.tracing": ("trace",),
 }
 """Where each name is from."""
@@ -78,6 +80,7 @@ __all__ = [
     "load",
     "page",
     "price",
+    "tidy",
     "trace",
     "watch",
     "why",

@@ -21,6 +21,7 @@ from bbsd.cli.schema import schema
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
+from bbsd.cli.understanding.tidy import tidy
 from bbsd.cli.understanding.watch import watch
 from bbsd.cli.understanding.why import why
 from bbsd.cli.understanding.worth import worth
@@ -41,6 +42,7 @@ app.command()(design)
 app.command()(evaluate)
 app.command()(explain)
 app.command()(why)
+app.command()(tidy)
 app.command()(worth)
 app.command()(compare)
 app.command()(report)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 from math import prod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.architecture.rules import cell_words
 from bbsd.explanation.lines import LINE_WIDTH, table_lines, wrapped
@@ -23,16 +23,23 @@ ANY = "-"
 NOT_COUNTED = " "
 
 
-def decision_table(layer: LayerInWords, indent: str = "") -> list[str]:
+class DecisionTable(NamedTuple):
+    """Lines, and how to read them."""
+
+    how: str
+    lines: list[str]
+
+
+def decision_table(layer: LayerInWords, indent: str = "") -> DecisionTable:
     """Return a behavior's rules as a table: each row is a rule, and the first that fits decides.
 
     Where that has too many rows for a screen, and a grid of all its cells has fewer, it is the grid.
     """
     rules = _rule_table(layer, indent)
-    if len(rules) <= SCREEN:
-        return rules
-    grid = _grid(layer, indent)
-    return grid if grid and len(grid) < len(rules) else rules
+    grid = _grid(layer, indent) if len(rules) > SCREEN else []
+    if grid and len(grid) < len(rules):
+        return DecisionTable("the decision in each cell", grid)
+    return DecisionTable("the first row that fits decides", rules)
 
 
 def _rule_table(layer: LayerInWords, indent: str) -> list[str]:
@@ -73,8 +80,9 @@ def _grid(layer: LayerInWords, indent: str) -> list[str]:
     if not layer.table or any(not each.cells for each in inputs):
         return []
     forms = [_grid_of(layer, inputs[:split], inputs[split:], indent) for split in range(1, len(inputs))]
-    fitting = [form for form in forms if max(map(len, form)) <= LINE_WIDTH]
-    return min(fitting, key=len, default=[])
+    narrow_first = [form for form in reversed(forms) if max(map(len, form)) <= LINE_WIDTH]
+    fits = (form for form in narrow_first if len(form) <= SCREEN)
+    return next(fits, min(narrow_first, key=len, default=[]))
 
 
 def _grid_of(

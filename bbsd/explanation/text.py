@@ -87,8 +87,8 @@ def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
                 head, column, [*_excited(layer), *_rules(layer), *_remarks(layer, explanation.watched)]
             )
             continue
-        lines += hanging(head, column, [*_excited(layer), "the first row that fits decides"])
-        lines += ["", *decision_table(layer, " " * (digits + 2)), ""]
+        table = decision_table(layer, " " * (digits + 2))
+        lines += [*hanging(head, column, [*_excited(layer), table.how]), "", *table.lines, ""]
         indent = " " * column
         lines += [
             line

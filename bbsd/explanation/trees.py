@@ -60,11 +60,14 @@ def tree_of(decisions: Decisions) -> Tree:
     choices = [
         (axis, _merged(decisions, axis)) for axis in range(decisions.ndim) if decisions.shape[axis] > 1
     ]
+    for axis, columns in choices:
+        if len(columns) == 1:  # the input does not matter
+            return tree_of(np.expand_dims(columns[0][1], axis))
 
     def mixed(choice: tuple[int, list[tuple[list[int], Decisions]]]) -> tuple[float, int]:
         return sum(_disorder(column) for _, column in choice[1]), len(choice[1])
 
-    axis, columns = min((choice for choice in choices if len(choice[1]) > 1), key=mixed)
+    axis, columns = min(choices, key=mixed)
     branches = tuple(Branch(tuple(cells), tree_of(np.expand_dims(column, axis))) for cells, column in columns)
     return Tree(-1, axis, branches)
 

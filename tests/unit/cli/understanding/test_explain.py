@@ -1,0 +1,51 @@
+import json
+import re
+
+import pytest
+
+from tests.unit.architecture.designs import SPECS
+from tests.unit.cli.commands import run
+
+HAND = SPECS / "object_lifting_hand.yaml"
+
+
+@pytest.mark.parametrize(
+    ("form", "part"),
+    [
+        ("text", "4  slow_down       slower where place is highest and tilted\n"),
+        ("table", "highest  yes     slower\n"),
+        ("tree", "4  slow_down\n"),
+        ("mermaid", 'layer4["4 slow_down<br>slower: place is highest and tilted'),
+        ("dot", 'layer4 [label="4 slow_down\\lslower: place is highest and tilted'),
+        ("json", '"behavior": "slow_down"'),
+    ],
+)
+def test_every_format_is_printed(form, part, capsys):
+    assert run("explain", HAND, "--format", form) == 0
+    out, err = capsys.readouterr()
+    assert part in out
+    assert err == ""
+
+
+def test_json_has_conditions_for_programs(capsys):
+    assert run("explain", HAND, "--format", "json") == 0
+    plain = json.loads(capsys.readouterr().out)
+    assert plain["layers"][1]["rules"][0]["when"][0] == {
+        "input": "place",
+        "cells": [1],
+        "labels": ["highest"],
+    }
+    assert plain["rows"][0]["behavior"] == "stop_at_goal"
+    assert plain["watched"] is None
+
+
+def test_visits_are_counted_on_demand(capsys):
+    assert run("explain", HAND, "--episodes", 2) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert re.search(r"In 2 episodes, stop_at_goal controlled \d\d\.\d % of the time, ", text)
+    assert run("explain", HAND, "--episodes", 2) == 0
+    assert " ".join(capsys.readouterr().out.split()) == text
+
+
+def test_no_episodes_are_a_mistake(capsys):
+    assert run("explain", HAND, "--episodes", 0) == 2
