@@ -2,12 +2,11 @@
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
-`evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `page` for `bbsd report`, and `trace` for one episode;
-`bbsd.api` documents them.
+`evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `page` for `bbsd report`, `faults` for `evaluate --fault`, and
+`trace` for one episode; `bbsd.api` documents them.
 """
 
-import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from bbsd.api import (
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
         design,
         evaluate,
         explain,
+        faults,
         load,
         page,
         tidy,
@@ -36,6 +36,7 @@ __all__ = [
     "design",
     "evaluate",
     "explain",
+    "faults",
     "load",
     "page",
     "tidy",
@@ -52,14 +53,4 @@ def __getattr__(name: str) -> object:
         raise AttributeError(f"module 'bbsd' has no attribute {name!r}")
     from bbsd import api
 
-    notebook = sys.modules.get("IPython")
-    if notebook is not None and (shell := notebook.get_ipython()) is not None:
-        load_ipython_extension(shell)
     return getattr(api, name)
-
-
-def load_ipython_extension(shell: Any) -> None:  # noqa: ANN401 - IPython is optional
-    """Let a notebook show results as tables: when a function is first used in one, or by `%load_ext bbsd`."""
-    from bbsd.report.notebook import register
-
-    register(shell)

@@ -11,7 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bbsd.api.appraising import worth
+    from bbsd.api.appraising import faults, worth
     from bbsd.api.comparing import compare
     from bbsd.api.compiling import compile  # noqa: A004 - the verb
     from bbsd.api.designing import design, price
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from bbsd.api.watching import watch
 
 HOMES = {
-    "bbsd.api.appraising": ("worth",),
+    "bbsd.api.appraising": ("faults", "worth"),
     "bbsd.api.comparing": ("compare",),
     "bbsd.api.compiling": ("compile",),
     "bbsd.api.designing": ("design", "price"),
@@ -77,6 +77,7 @@ __all__ = [
     "design",
     "evaluate",
     "explain",
+    "faults",
     "load",
     "page",
     "price",

@@ -1,4 +1,4 @@
-"""Say what the parts of a design are worth."""
+"""Say what the parts of a design are worth, and what it earns under faults."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.evaluation import evaluation_key
+from bbsd.evaluation.faults import read_faults
+from bbsd.explanation.faults import Degradations, degradations
 from bbsd.explanation.worth import Appraisal, Worth
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
 EPISODES = 1000
 """The number of episodes by default, as in `evaluate`."""
@@ -54,3 +56,54 @@ def worth(
     design = given_architecture(problem)
     with located_reward_errors(loaded):
         return Appraisal(problem, design, evaluation_key(seed), episodes, generation).worth()
+
+
+def faults(
+    spec: AnySpec,
+    faults: Sequence[str],
+    *,
+    episodes: int = EPISODES,
+    seed: int = 0,
+    relearn: bool = False,
+    lanes: int = DEFAULT_LANES,
+    jobs: int = 1,
+    overrides: Sequence[str] = (),
+    progress: Callable[[int, int], None] | None = None,
+) -> Degradations:
+    """Say what a design earns undisturbed and under each fault alone, all in the episodes of `evaluate`.
+
+    Args:
+        spec: A spec without holes.
+        faults: Texts such as "behavior=stop:silent", "behavior=stop:stuck@100", "sensor=tilt:noise(1.0)",
+            "sensor=tilt:frozen@100", "sensor=tilt:lost", "robot=1:dead"; "all" stands for every behavior silent.
+        episodes: Number of episodes, at least 2, undisturbed and under each fault.
+        seed: Seed of the episodes, and of the draws in constants.
+        relearn: Learn the order of the layers again around each fault, with the tables as they are.
+        lanes: Episodes that a kernel runs side by side; affects only the speed.
+        jobs: Threads to use; affects only the speed.
+        overrides: Values that replace those of the spec.
+        progress: Called with the numbers of faults done and of all.
+
+    Raises:
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
+        HolesLeft: the spec has holes.
+        NoSuchFault: a fault is not understood, or of something that the spec does not have.
+        ValueError: fewer than two episodes, of which no interval can be told.
+    """
+    if episodes < 2:
+        raise ValueError("faults need two episodes at least")
+    loaded = load(spec, seed=seed, overrides=overrides)
+    found = read_faults(faults, loaded.meaning)
+    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    design, generation = given_architecture(problem), loaded.spec.design.coevolution.generations
+    with located_reward_errors(loaded):
+        return degradations(
+            problem,
+            design,
+            found,
+            evaluation_key(seed),
+            episodes,
+            generation,
+            relearn=relearn,
+            progress=progress,
+        )

@@ -9,19 +9,16 @@ import typer
 import bbsd
 from bbsd.cli.options import AsJson, DesignFile, Jobs, Lanes, Overrides, Seed
 from bbsd.cli.output import error_console, has_blocks, require_writable_file, say, show, show_table
+from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
 from bbsd.files import write_text_whole
 from bbsd.report.csv_text import csv_text
 from bbsd.report.figures import draw_episode, require_figure
-from bbsd.report.numbers import column
 from bbsd.report.plain import evaluation_plain, json_text
 
 if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation
     from bbsd.language.loading import Loaded
-
-TOO_LOW = 1
-"""The exit code if a mean is below --at-least, or a share below --expect-at-least."""
 
 
 class NothingExpected(UsageError):
@@ -79,6 +76,19 @@ def evaluate(
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE.png", help="Draw the first episode, as .png, .svg or .pdf.")
     ] = None,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FAULT",
+            help="Show how far the return falls under a fault, such as behavior=NAME:silent, behavior=NAME:stuck@100, "
+            "sensor=NAME:noise(0.5), sensor=NAME:lost or robot=1:dead; all: every behavior silent. May be repeated.",
+            show_default=False,
+        ),
+    ] = None,
+    relearn: Annotated[
+        bool,
+        typer.Option("--relearn", help="With --fault: also learn the order of the layers again around it."),
+    ] = False,
     as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
@@ -92,10 +102,19 @@ def evaluate(
         raise typer.BadParameter(
             "--exact, --trace and --plot need one complete design, so they exclude --fill"
         )
+    if fault and (fill or exact or trace or plot or expect_at_least is not None):
+        raise typer.BadParameter("--fault goes with --episodes, --seed, --relearn and --at-least alone")
+    if relearn and not fault:
+        raise typer.BadParameter("--relearn needs --fault")
     _require_outputs(trace, plot)
     loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
     if expect_at_least is not None:
         _require_expectations(loaded)
+    if fault:
+        show_faults(
+            loaded, fault, episodes or 1000, seed, at_least, lanes, jobs, relearn=relearn, as_json=as_json
+        )
+        return
     from bbsd.report.progress import episode_listener
 
     with episode_listener(error_console()) as listener:
@@ -113,7 +132,7 @@ def evaluate(
     _show(evaluation, as_json=as_json)
     if trace or plot:
         _write_episode(loaded, seed, trace, plot)
-    failures = [*_too_low(evaluation, at_least), *_too_rare(evaluation, expect_at_least)]
+    failures = [*too_low(evaluation.mean, at_least), *_too_rare(evaluation, expect_at_least)]
     for failure in failures:
         say(failure)
     if failures:
@@ -148,13 +167,6 @@ def _write_episode(loaded: "Loaded", seed: int, trace: Path | None, plot: Path |
         write_text_whole(trace, csv_text(first_episode), through_links=True)
     if plot:
         draw_episode(first_episode, loaded.spec, plot)
-
-
-def _too_low(evaluation: "Evaluation", least: float | None) -> list[str]:
-    if least is None or evaluation.mean >= least:
-        return []
-    mean_text, least_text, by = column([evaluation.mean, least, least - evaluation.mean])
-    return [f"bbsd: the mean return {mean_text} is below {least_text} by {by}"]
 
 
 def _too_rare(evaluation: "Evaluation", least: float | None) -> list[str]:

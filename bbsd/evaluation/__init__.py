@@ -10,8 +10,7 @@ from bbsd.evaluation.paired import PairedEpisodes, paired_episodes
 from bbsd.evaluation.scene import Scene
 from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interval, weighted_evaluation
 from bbsd.evaluation.streams import episode_key, evaluation_key, evaluation_keys
-from bbsd.evaluation.traced import Trace
-from bbsd.evaluation.tracing import trace
+from bbsd.evaluation.tracing import Trace, trace
 
 __all__ = [
     "RANKS", "Agents", "Decisions", "Evaluation", "Interval", "NoSuchEpisode", "NotEnumerable", "PairedEpisodes",

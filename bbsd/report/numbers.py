@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from bbsd.evaluation import Interval
+
 DIGITS = 5
 """The number of significant digits of the largest number in a column."""
 
@@ -33,6 +35,15 @@ def changes(values: Sequence[float]) -> list[str]:
     return [
         f"+{text}" if value > 0 and float(text) else text for value, text in zip(values, texts, strict=True)
     ]
+
+
+def with_halves(intervals: Sequence[Interval], *, signed: bool = True) -> list[str]:
+    """Return means with half their intervals, such as `-549.08 ±1.12`, all with the same decimals."""
+    means = (changes if signed else column)([each.mean for each in intervals])
+    decimals = max((len(text.partition(".")[2]) for text in means), default=0)
+    halves = [f"{each.high - each.mean:.{decimals}f}" for each in intervals]
+    width = max(map(len, halves), default=0)
+    return [f"{text} ±{half:<{width}}" for text, half in zip(means, halves, strict=True)]
 
 
 def _special(value: float) -> str:

@@ -41,7 +41,7 @@ def generation_listener(console: Console, *, quiet: bool = False) -> Iterator[Ca
 
 
 @contextmanager
-def episode_listener(console: Console) -> Iterator[Callable[[int, int], None]]:
+def episode_listener(console: Console, what: str = "episodes") -> Iterator[Callable[[int, int], None]]:
     """Yield a function to call with the numbers of finished and of all episodes; only a terminal shows them."""
     if not console.is_terminal:
         yield lambda _done, _total: None
@@ -53,7 +53,7 @@ def episode_listener(console: Console) -> Iterator[Callable[[int, int], None]]:
         task = display.add_task("compiling", total=None)
 
         def show(done: int, total: int) -> None:
-            display.update(task, description=f"{done:,} of {total:,} episodes", completed=done, total=total)
+            display.update(task, description=f"{done:,} of {total:,} {what}", completed=done, total=total)
 
         yield show
 

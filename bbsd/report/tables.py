@@ -58,7 +58,7 @@ def design_table(designed: Designed) -> RenderableType:
 
 def runs_table(rows: Sequence[tuple[str, Interval, Sequence[str]]], heading: str = "run") -> RenderableType:
     """Return a table of runs, each with its mean return and its structure, and their spread."""
-    table = _table(heading, "mean return", INTERVAL, "structure, highest layer first", right=[0, 1])
+    table = plain_table(heading, "mean return", INTERVAL, "structure, highest layer first", right=[0, 1])
     means = [interval.mean for _, interval, _ in rows]
     spread = stdev(means) if len(means) > 1 else 0.0
     texts = column([value for _, each, _ in rows for value in (each.mean, each.low, each.high)] + [spread])
@@ -97,7 +97,8 @@ def _separated(parts: Sequence[RenderableType]) -> Iterable[RenderableType]:
         yield part
 
 
-def _table(*headings: str, right: Sequence[int] = ()) -> Table:
+def plain_table(*headings: str, right: Sequence[int] = ()) -> Table:
+    """Return an empty table without lines; `right` are the columns whose texts stand at the right."""
     table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
     for index, heading in enumerate(headings):
         table.add_column(Text(heading), justify="right" if index in right else "left", overflow="fold")
@@ -106,7 +107,7 @@ def _table(*headings: str, right: Sequence[int] = ()) -> Table:
 
 def _return(evaluation: Evaluation) -> Table:
     mean, sd, low, high = column([evaluation.mean, evaluation.sd, *evaluation.ci95])
-    table = _table("return", "standard deviation", INTERVAL)
+    table = plain_table("return", "standard deviation", INTERVAL)
     spread = "exact" if evaluation.exact else f"{low} to {high}"
     table.add_row(Text(mean, "bold"), sd, spread)
     return table
@@ -124,7 +125,7 @@ def _basis(evaluation: Evaluation) -> str:
 
 
 def _reward_terms(evaluation: Evaluation) -> Table:
-    table = _table("reward term", "per episode", right=[1])
+    table = plain_table("reward term", "per episode", right=[1])
     values = column(list(evaluation.reward_terms.values()))
     for name, value in zip(evaluation.reward_terms, values, strict=True):
         table.add_row(Text(escape(name)), value)
@@ -132,7 +133,7 @@ def _reward_terms(evaluation: Evaluation) -> Table:
 
 
 def _control(evaluation: Evaluation, *, blocks: bool) -> Table:
-    table = _table("in control", "share of time", "", right=[1])
+    table = plain_table("in control", "share of time", "", right=[1])
     for name, share in evaluation.control_share.items():
         drawn = Text(bar(share, BAR_WIDTH, blocks=blocks), "dim" if name == "nobody" else "cyan")
         table.add_row(Text(escape(name)), percent(share), drawn)
@@ -140,7 +141,7 @@ def _control(evaluation: Evaluation, *, blocks: bool) -> Table:
 
 
 def _expectations(evaluation: Evaluation, *, blocks: bool) -> Table:
-    table = _table("expectation of", "held", "", right=[1])
+    table = plain_table("expectation of", "held", "", right=[1])
     for name, share in evaluation.expectation_share.items():
         if isnan(share):
             table.add_row(Text(escape(name)), "", "never in control")
@@ -151,14 +152,14 @@ def _expectations(evaluation: Evaluation, *, blocks: bool) -> Table:
 
 
 def _not_finite(evaluation: Evaluation) -> Table:
-    table = _table("infinite or not a number", "in steps", right=[1])
+    table = plain_table("infinite or not a number", "in steps", right=[1])
     for name, steps in evaluation.not_finite.items():
         table.add_row(Text(escape(name), "yellow"), str(steps))
     return table
 
 
 def _structure(structure: Sequence[str]) -> Table:
-    table = _table("layer", "behavior", right=[0])
+    table = plain_table("layer", "behavior", right=[0])
     for index, name in enumerate(structure):
         table.add_row(str(len(structure) - index), Text(escape(name)))
     return table
@@ -179,7 +180,7 @@ def _fitness(designed: Designed) -> Table:
     texts = column(
         [value for interval in intervals for value in (interval.mean, interval.low, interval.high)]
     )
-    table = _table("", "mean return", INTERVAL, "", right=[1])
+    table = plain_table("", "mean return", INTERVAL, "", right=[1])
     for index, (name, (_, basis)) in enumerate(rows.items()):
         mean, low, high = texts[3 * index : 3 * index + 3]
         table.add_row(name, Text(mean, "" if index else "bold"), f"{low} to {high}", basis)

@@ -22,6 +22,7 @@ from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
+from bbsd.language.meaning.perceiving import Perceived, SensorFault, decision_perceived
 from bbsd.language.meaning.picture import Picture, elaborate_picture
 
 if TYPE_CHECKING:
@@ -82,10 +83,11 @@ class Episode:
         )
 
 
-def elaborate_episode(names: Names) -> Episode | None:
+def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode | None:
     """Return what happens in an episode of a spec; None where a behavior could not be understood.
 
-    The order of evaluation numbers the nodes, and with that fixes the kernel's text.
+    The order of evaluation numbers the nodes, and with that fixes the kernel's text. With the fault of a sensor
+    behaviors perceive something else than what is true, which is stored beside it.
     """
     first = starting_values(names)
     beginning = Moment(names, first, names.graph.number(0), starting=True)
@@ -93,7 +95,9 @@ def elaborate_episode(names: Names) -> Episode | None:
     now = slots_read(first, names)
     decision = decision_at(now, beginning, names)
     kinds = {name: values[0].kind for name, values in first.items()}
-    modules = tuple(modules_at(names, decision, kinds))
+    felt = None if fault is None else Perceived(names, first, names.graph.number(0), fault, starting=True)
+    perceived = decision if felt is None else decision_perceived(now, felt, names)
+    modules = tuple(modules_at(names, perceived, kinds))
     if sum(len(module.actions) for module in modules) > MAX_ACTIONS_IN_ALL:
         message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
         names.findings.report(("behaviors",), "BB038", message, KEY)
@@ -121,6 +125,9 @@ def elaborate_episode(names: Names) -> Episode | None:
         expects=_expects(outcome, decision),
         picture=_picture(first, beginning, names),
     )
+    if felt is not None and fault is not None:
+        after = Perceived(names, then, names.step, fault, before=perceived.scope).slots()
+        episode = replace(episode, start={**episode.start, **felt.slots()}, after={**episode.after, **after})
     return episode if len(modules) == len(names.spec.behaviors) else None
 
 

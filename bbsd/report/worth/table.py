@@ -5,20 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rich.console import Group
-from rich.table import Table
 from rich.text import Text
 
 from bbsd.errors import escape
 from bbsd.explanation.worth.findings import rule_text
-from bbsd.report.numbers import changes, column, count, percent
-from bbsd.report.tables import INTERVAL
+from bbsd.report.numbers import column, count, percent, with_halves
+from bbsd.report.tables import INTERVAL, plain_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from rich.console import RenderableType
+    from rich.table import Table
 
-    from bbsd.evaluation import Interval
     from bbsd.explanation.worth import BehaviorWorth, Finding, Order, Precedence, RuleWorth, Swap, Worth
 
 GRAVE = ("selfish", "harmful", "harmful rule", "broken expectation", "better order")
@@ -54,7 +53,7 @@ def _parts(worth: Worth) -> Iterator[RenderableType]:
 
 def _basis(worth: Worth) -> RenderableType:
     mean, low, high = column([worth.returns.mean, worth.returns.low, worth.returns.high])
-    table = _table("return", INTERVAL)
+    table = plain_table("return", INTERVAL)
     table.add_row(Text(mean, "bold"), f"{low} to {high}")
     steps = f"{worth.steps:.1f} steps on average" if worth.steps % 1 else count(round(worth.steps), "step")
     return Group(
@@ -67,7 +66,9 @@ def _finding(finding: Finding) -> Text:
 
 
 def _activity(worth: Worth) -> Table:
-    table = _table("layer", "behavior", "in control", "activated", "suppressed", "excited", right=range(2, 6))
+    table = plain_table(
+        "layer", "behavior", "in control", "activated", "suppressed", "excited", right=range(2, 6)
+    )
     for each in worth.behaviors:
         shares = (each.control, each.activated, each.suppressed, each.excited)
         table.add_row(str(each.layer), Text(escape(each.behavior)), *map(percent, shares))
@@ -77,8 +78,8 @@ def _activity(worth: Worth) -> Table:
 
 def _changes(worth: Worth) -> RenderableType:
     """Return the changes of the return where behaviors are dropped, and where they are replaced at random."""
-    table = _table("change of the return", "if dropped", "if random", right=[1, 2])
-    texts = _texts([change for each in worth.behaviors for change in (each.dropped, each.random)])
+    table = plain_table("change of the return", "if dropped", "if random", right=[1, 2])
+    texts = with_halves([change for each in worth.behaviors for change in (each.dropped, each.random)])
     for index, each in enumerate(worth.behaviors):
         table.add_row(Text(escape(each.behavior)), *texts[2 * index : 2 * index + 2])
     return Group(
@@ -94,7 +95,7 @@ def _earned(worth: Worth) -> Table:
     cells.append([sum(values) for values in zip(*cells, strict=True)])
     texts = column([value for row in cells for value in row])
     width = len(terms) + 1
-    table = _table("earned in control", *map(escape, terms), "in all", right=range(1, width + 1))
+    table = plain_table("earned in control", *map(escape, terms), "in all", right=range(1, width + 1))
     for index, name in enumerate([*rows, "in all"]):
         style = "bold" if index == len(rows) else "dim" if name == "nobody" else ""
         table.add_row(Text(escape(name), style), *texts[width * index : width * (index + 1)])
@@ -103,10 +104,10 @@ def _earned(worth: Worth) -> Table:
 
 def _rules(worth: Worth) -> Table:
     """Return the rules of each behavior with their share of control, and the change of the return without them."""
-    table = _table("rule", "in control", "if dropped", right=[1, 2])
+    table = plain_table("rule", "in control", "if dropped", right=[1, 2])
     shown = {each.behavior: _most_used(each.rules) for each in worth.behaviors}
     changes = [rule.dropped for rules in shown.values() for rule in rules if rule.dropped is not None]
-    texts = iter(_texts(changes))
+    texts = iter(with_halves(changes))
     for behavior, rules in shown.items():
         table.add_row(Text(escape(behavior), "bold"))
         for rule in rules:
@@ -125,16 +126,16 @@ def _most_used(rules: Sequence[RuleWorth]) -> list[RuleWorth]:
 
 
 def _swaps(swaps: Sequence[Swap]) -> Table:
-    table = _table("neighbors exchanged", "change of the return", "", right=[1])
-    for swap, text in zip(swaps, _texts([swap.change for swap in swaps]), strict=True):
+    table = plain_table("neighbors exchanged", "change of the return", "", right=[1])
+    for swap, text in zip(swaps, with_halves([swap.change for swap in swaps]), strict=True):
         names = Text(escape(f"{swap.upper}, {swap.lower}"))
         table.add_row(names, text, "proven equal by the tables" if swap.never else "")
     return table
 
 
 def _orders(orders: Sequence[Order], precedence: Precedence) -> RenderableType:
-    table = _table("change of the return", "best orders, highest layer first", right=[0])
-    for order, text in zip(orders, _texts([order.change for order in orders]), strict=True):
+    table = plain_table("change of the return", "best orders, highest layer first", right=[0])
+    for order, text in zip(orders, with_halves([order.change for order in orders]), strict=True):
         alike = f", and {count(order.alike - 1, 'order')} that must do the same" if order.alike > 1 else ""
         table.add_row(text, Text(escape(f"{' '.join(order.structure)}{alike}")))
     tried = "all" if precedence.whole else "those with any two layers exchanged"
@@ -154,19 +155,3 @@ def _precedence(precedence: Precedence, behaviors: Sequence[BehaviorWorth]) -> R
     if free:
         lines.append(Text(escape(f"anywhere: {', '.join(free)}")))
     return Group(*lines)
-
-
-def _texts(intervals: Sequence[Interval]) -> list[str]:
-    """Return changes with their intervals, such as `-549.08 ±1.12`, all with the same decimals."""
-    means = changes([each.mean for each in intervals])
-    decimals = max((len(text.partition(".")[2]) for text in means), default=0)
-    halves = [f"{each.high - each.mean:.{decimals}f}" for each in intervals]
-    width = max(map(len, halves), default=0)
-    return [f"{text} ±{half:<{width}}" for text, half in zip(means, halves, strict=True)]
-
-
-def _table(*headings: str, right: Sequence[int] = ()) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
-    for index, heading in enumerate(headings):
-        table.add_column(Text(heading), justify="right" if index in right else "left", overflow="fold")
-    return table

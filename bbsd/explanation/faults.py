@@ -1,0 +1,205 @@
+"""Graceful degradation: what a design earns under each of some faults, and with its order learned again around them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from bbsd.compiler import compile_meaning
+from bbsd.evaluation import Agents, Interval, RewardNotFinite, agents_of, interval, returns_of
+from bbsd.evaluation.faults import faulty_meaning
+from bbsd.evaluation.sums import mean, row_means
+from bbsd.explanation.worth.orders import tried_orders
+from bbsd.explanation.worth.results import clearly_above
+from bbsd.kernel.keys import keys as keys_of
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.language.meaning.tables.table import OPEN_CELL
+from bbsd.solver.paper.genetics import random_pool
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from bbsd.architecture import Architecture
+    from bbsd.compiler import Problem
+    from bbsd.evaluation.faults import Fault
+
+Floats = npt.NDArray[np.float64]
+Keys = npt.NDArray[np.uint64]
+Structure = npt.NDArray[np.int64]
+
+ORDERS, TABLES = name_word("orders around a fault"), name_word("random table of a fault")
+RANDOM_TABLES = 25
+"""Random tables of a behavior whose fault is to be random; each has its part of the episodes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Relearned:
+    """The order learned again around a fault, with all tables as they are.
+
+    `change` is beside the undisturbed design, `gain` beside the faulty one in its own order.
+    """
+
+    structure: tuple[str, ...]
+    """Highest layer first."""
+    returns: Interval
+    change: Interval
+    gain: Interval
+
+
+@dataclass(frozen=True, slots=True)
+class Degradation:
+    """What a design earns under a fault, and the change beside the undisturbed design in the same episodes."""
+
+    fault: Fault
+    returns: Interval
+    change: Interval
+    relearned: Relearned | None
+
+
+@dataclass(frozen=True, slots=True)
+class Degradations:
+    """What a design earns undisturbed, and under each fault alone."""
+
+    returns: Interval
+    structure: tuple[str, ...]
+    """Highest layer first."""
+    faults: tuple[Degradation, ...]
+    random_tables: int
+
+
+@dataclass(frozen=True)
+class Disturbed:
+    """A design under one fault."""
+
+    problem: Problem
+    architecture: Architecture
+    fault: Fault
+    key: int
+    generation: int
+    n_tables: int
+
+    @cached_property
+    def _faulty(self) -> Problem:
+        """The problem under the fault, as it is where only the design's tables change."""
+        if self._changes_tables:
+            return self.problem
+        problem = self.problem
+        meaning = faulty_meaning(problem.meaning, self.fault)
+        return compile_meaning(meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs)
+
+    @property
+    def _changes_tables(self) -> bool:
+        return self.fault.kind == "random" or (self.fault.kind == "silent" and self.fault.since == 1)
+
+    @cached_property
+    def _designs(self) -> Agents:
+        """The design with its tables as the fault makes them: one agent, or one for each random table."""
+        design = agents_of([self.architecture])
+        if not self._changes_tables:
+            return design
+        behavior = self.problem.names.index(self.fault.name)
+        if self.fault.kind == "silent":
+            return design.held(behavior)
+        shape, pools = self.problem.tables[behavior], list(design.pools)
+        is_open = np.full(shape.n_cells, OPEN_CELL, np.uint8)
+        stream = fold(fold(self.key, TABLES), word_of(behavior))
+        pools[behavior] = random_pool(stream, self.n_tables, is_open, shape.n_actions)
+        members = np.zeros((self.n_tables, len(pools)), np.int64)
+        members[:, behavior] = np.arange(self.n_tables)
+        return Agents(tuple(pools), members, np.tile(self.architecture.structure, (self.n_tables, 1)))
+
+    def returns(self, structures: Sequence[Structure], keys: Keys) -> Floats:
+        """Run the design in some orders, (n_orders, n_episodes); each random table has its part of the episodes."""
+        n_designs, n_orders = len(self._designs), len(structures)
+        each = len(keys) // n_designs
+        own = np.tile(keys[: n_designs * each].reshape(n_designs, each), (n_orders, 1))
+        agents = self._designs[np.tile(np.arange(n_designs), n_orders)]
+        agents = agents.with_structures(np.repeat(np.stack(structures), n_designs, axis=0))
+        try:
+            return returns_of(self._faulty, agents, own, self.generation).reshape(n_orders, -1)
+        except RewardNotFinite as error:
+            error.episode += f", {self.fault.text}"
+            raise
+
+    def interval(self, values: Floats) -> Interval:
+        """Return the mean of values by episode with its interval, over the random tables where there are several."""
+        n_designs = len(self._designs)
+        return interval(values) if n_designs == 1 else interval(row_means(values.reshape(n_designs, -1)))
+
+    def learned(self, episodes: int) -> Structure:
+        """Return the best order around the fault: of all, or if they are many by exchanging layers while it helps."""
+        best, stream = self.architecture.structure, fold(self.key, ORDERS)
+        for climbed in range(len(best)):
+            orders, whole = tried_orders(best)
+            keys = keys_of(fold(stream, word_of(climbed)), 0, episodes)
+            returns = self.returns(orders, keys)
+            most = max(range(len(orders)), key=lambda order: mean(returns[order]))
+            if whole:
+                return orders[most]
+            if not clearly_above(self.interval(returns[most] - returns[0])):
+                break
+            best = orders[most]
+        return best
+
+
+def degradations(
+    problem: Problem,
+    architecture: Architecture,
+    faults: Sequence[Fault],
+    key: int,
+    episodes: int,
+    generation: int,
+    *,
+    relearn: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Degradations:
+    """Run a design undisturbed and under each fault alone, in the same episodes.
+
+    Args:
+        problem: the spec.
+        architecture: the design.
+        faults: of `read_faults`.
+        key: names the stream of the episodes.
+        episodes: how many there are, at least 2.
+        generation: in whose constants they run.
+        relearn: whether to learn the order of the layers again around each fault.
+        progress: is called with the numbers of faults done and of all.
+
+    Raises:
+        RewardNotFinite: a reward was infinite or not a number.
+    """
+    keys, n_tables = keys_of(key, 0, episodes), min(RANDOM_TABLES, episodes)
+    base = returns_of(problem, agents_of([architecture]), keys, generation)[0]
+    found = []
+    for done, fault in enumerate(faults, start=1):
+        disturbed = Disturbed(problem, architecture, fault, key, generation, n_tables)
+        found.append(_degradation(disturbed, base, keys, relearn=relearn))
+        if progress is not None:
+            progress(done, len(faults))
+    return Degradations(interval(base), _named(problem, architecture.structure), tuple(found), n_tables)
+
+
+def _degradation(disturbed: Disturbed, base: Floats, keys: Keys, *, relearn: bool) -> Degradation:
+    structures = [disturbed.architecture.structure]
+    if relearn and len(structures[0]) > 1:
+        structures.append(disturbed.learned(len(keys)))
+    returns = disturbed.returns(structures, keys)
+    base = base[: returns.shape[1]]
+    relearned = None
+    if len(structures) > 1:
+        relearned = Relearned(
+            _named(disturbed.problem, structures[1]),
+            disturbed.interval(returns[1]),
+            disturbed.interval(returns[1] - base),
+            disturbed.interval(returns[1] - returns[0]),
+        )
+    change = disturbed.interval(returns[0] - base)
+    return Degradation(disturbed.fault, disturbed.interval(returns[0]), change, relearned)
+
+
+def _named(problem: Problem, structure: Structure) -> tuple[str, ...]:
+    return tuple(problem.names[behavior] for behavior in reversed(structure.tolist()))
