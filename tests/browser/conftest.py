@@ -19,6 +19,10 @@ FLAGS = (
 REQUIRED = "BBSD_REQUIRE_BROWSER"
 """Set by whoever knows that there is a browser: without one, tests then fail instead of being skipped."""
 DESIGNS = {"lifting": "object_lifting_hand", "pursuit": "pursuit_hand", "mobile": "mobile_robot_hand"}
+SMALL_RUN = (
+    "design.method=paper", "design.coevolution.generations=4", "design.coevolution.population=6",
+    "design.coevolution.agents=4", "design.learning.episodes=4",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="session")
@@ -42,6 +46,17 @@ def browser(tmp_path_factory):
     driver.quit()
 
 
+def spec(name):
+    return ROOT / "specs" / f"{DESIGNS[name]}.yaml"
+
+
+def run_page(folder):
+    """Return the page on the design of a small run, beside the hand-made one: the page that has most on it."""
+    task = ROOT / "specs" / "object_lifting.yaml"
+    designed = bbsd.design(task, seed=1, runs=2, out=folder / "small-run", overrides=SMALL_RUN)
+    return bbsd.page(designed.folder, spec("lifting"), episodes=20)
+
+
 @pytest.fixture(scope="session")
 def made(tmp_path_factory):
     """Return what a page on a design shows, and the page's file, by the design's short name."""
@@ -49,7 +64,7 @@ def made(tmp_path_factory):
 
     def make(name):
         if name not in kept:
-            page = bbsd.page(ROOT / "specs" / f"{DESIGNS[name]}.yaml", episodes=20)
+            page = run_page(folder) if name == "run" else bbsd.page(spec(name), episodes=20)
             path = folder / f"{name}.html"
             path.write_text(page_text(page), encoding="utf-8")
             kept[name] = page, path
@@ -62,7 +77,7 @@ def made(tmp_path_factory):
 def opened(browser, made):
     """Open the page on a design in a theme and at a width, with an empty log, and return what it shows."""
 
-    def open_page(name, theme="light", width=1280):
+    def open_page(name, theme="light", width=1280, place=""):
         page, path = made(name)
         browser.execute_cdp_cmd(
             "Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]}
@@ -74,7 +89,7 @@ def opened(browser, made):
         browser.get("about:blank")
         for log in ("browser", "performance"):
             browser.get_log(log)
-        browser.get(path.as_uri())
+        browser.get(path.as_uri() + place)
         return page
 
     return open_page

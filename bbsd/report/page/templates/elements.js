@@ -36,7 +36,7 @@ function table(caption, headings, rows, { left = [0] } = {}) {
 
 // What may be wider than a phone scrolls by itself, also by keyboard.
 function scrolling(child, name) {
-  return element("div", { class: "scrolling", tabindex: "0", role: "region", "aria-label": name }, child);
+  return element("div", { class: "scrolling", tabindex: "0", role: "group", "aria-label": name }, child);
 }
 
 // A table that is made when it is opened.

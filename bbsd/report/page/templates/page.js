@@ -68,6 +68,16 @@ function repeat() {
     table("What it was made with", ["what", "value"], DATA.repeat.facts.map(([name, value]) => [name, element("code", {}, value)]), { left: [0, 1] }));
 }
 
+// Begin where the address says, such as page.html#episode=best&robot=1&step=57, else at the start of the worst episode.
+function begin(wanted) {
+  const episode = Math.max(0, DATA.episodes.findIndex((each) => each.label === wanted.get("episode")));
+  const robot = Number(wanted.get("robot"));
+  if (Number.isInteger(robot) && robot > 0 && robot < DATA.robots) replay.robot = robot;
+  for (const [name, value] of [["episode", episode], ["robot", replay.robot]]) document.querySelector(`input[name="${name}"][value="${value}"]`).checked = true;
+  replay.open(DATA.episodes[episode]);
+  if (Number(wanted.get("step")) >= 1) replay.go(Math.floor(Number(wanted.get("step"))));
+}
+
 head();
 document.getElementById("main").append(replaySection(), earnings(),
   ...(DATA.worth ? [worthSection(DATA.worth)] : []),
@@ -76,4 +86,4 @@ document.getElementById("main").append(replaySection(), earnings(),
   ...(DATA.curves ? [section("progress", "How it was found", ...progress(DATA.curves))] : []),
   specText(), repeat());
 document.getElementById("foot").append(element("p", { class: "note" }, `bbsd ${DATA.version}. This file is whole: it needs no other file and no network.`));
-replay.open(DATA.episodes[0]);
+begin(new URLSearchParams(location.hash.slice(1)));

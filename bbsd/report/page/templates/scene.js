@@ -136,7 +136,8 @@ function drawMark(pen, mark, step, plane, width) {
   pen.closePath();
   pen.fill();
   pen.stroke();
-  label(pen, mark.name, atX, atY, width);
+  const { area } = replay.episode.scene;
+  label(pen, mark.name, atX, atY, area ? Math.max(plane.x(area[0]), plane.x(area[2])) : width);
 }
 
 function drawRobot(pen, track, robot, plane) {
@@ -169,9 +170,9 @@ function drawRobot(pen, track, robot, plane) {
   }
 }
 
-function label(pen, text, x, y, width) {
+function label(pen, text, x, y, edge) {
   pen.font = `12px ${theme("font")}`;
-  const isLeft = x + 36 + pen.measureText(text).width > width;
+  const isLeft = x + 15 + pen.measureText(text).width > edge;
   pen.textAlign = isLeft ? "right" : "left";
   pen.strokeStyle = theme("paper");
   pen.lineWidth = 3;
