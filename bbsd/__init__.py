@@ -6,7 +6,8 @@ spec with the holes filled. The functions are the commands of the command line: 
 `trace` for one episode; `bbsd.api` documents them.
 """
 
-from typing import TYPE_CHECKING
+import sys
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bbsd.api import (
@@ -53,4 +54,14 @@ def __getattr__(name: str) -> object:
         raise AttributeError(f"module 'bbsd' has no attribute {name!r}")
     from bbsd import api
 
+    notebook = sys.modules.get("IPython")
+    if notebook is not None and (shell := notebook.get_ipython()) is not None:
+        load_ipython_extension(shell)
     return getattr(api, name)
+
+
+def load_ipython_extension(shell: Any) -> None:  # noqa: ANN401 - IPython is optional
+    """Let a notebook show results as tables: when a function is first used in one, or by `%load_ext bbsd`."""
+    from bbsd.report.notebook import register
+
+    register(shell)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from bbsd.errors import UsageError
 
@@ -161,3 +161,18 @@ class Designed:
     def episodes(self) -> int:
         """The number of episodes of its evaluation."""
         return self.evaluation.episodes
+
+    def to_frame(self) -> Any:  # noqa: ANN401 - pandas is optional
+        """Return the metrics of all runs on the way as a pandas DataFrame, a row for each record or generation.
+
+        Raises NoPandas where pandas is not installed.
+        """
+        from bbsd.evaluation.frames import metrics_frame
+        from bbsd.runs.storage.folder import Folder
+
+        return metrics_frame(Folder(self.folder).lines())
+
+    def __repr__(self) -> str:
+        low, high = self.ci95
+        structure = " ".join(self.structure)
+        return f"<Designed {self.architecture}: mean return {self.mean:.6g} ({low:.6g} to {high:.6g}), {structure}>"

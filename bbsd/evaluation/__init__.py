@@ -10,7 +10,8 @@ from bbsd.evaluation.paired import PairedEpisodes, paired_episodes
 from bbsd.evaluation.scene import Scene
 from bbsd.evaluation.statistics import Evaluation, Interval, evaluation, interval, weighted_evaluation
 from bbsd.evaluation.streams import episode_key, evaluation_key, evaluation_keys
-from bbsd.evaluation.tracing import Trace, trace
+from bbsd.evaluation.traced import Trace
+from bbsd.evaluation.tracing import trace
 
 __all__ = [
     "RANKS", "Agents", "Decisions", "Evaluation", "Interval", "NoSuchEpisode", "NotEnumerable", "PairedEpisodes",

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from math import fsum, sqrt
 from statistics import NormalDist
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from bbsd.evaluation.frames import frame
 from bbsd.evaluation.sums import column_sums, deviation, expectation, mean, row_means
 
 if TYPE_CHECKING:
@@ -79,6 +80,27 @@ class Evaluation:
     def ci95(self) -> tuple[float, float]:
         """The 95 % interval of the mean return."""
         return self.returns.low, self.returns.high
+
+    def to_frame(self) -> Any:  # noqa: ANN401 - pandas is optional
+        """Return a pandas DataFrame of what was measured: the return, reward terms, shares of control, expectations.
+
+        Raises NoPandas where pandas is not installed.
+        """
+        spread = {"mean": self.mean, "sd": self.sd, "low": self.ci95[0], "high": self.ci95[1]}
+        parts = {
+            "return": spread,
+            "reward term": self.reward_terms,
+            "in control": self.control_share,
+            "expectation": self.expectation_share,
+        }
+        rows = [(what, name, value) for what, values in parts.items() for name, value in values.items()]
+        columns = zip(*rows, strict=True)
+        return frame(dict(zip(("what", "name", "value"), map(list, columns), strict=True)))
+
+    def __repr__(self) -> str:
+        spread = "exact" if self.exact else f"{self.ci95[0]:.6g} to {self.ci95[1]:.6g}"
+        agents = f" by {self.agents:,} agents" if self.agents > 1 else ""
+        return f"<Evaluation: mean return {self.mean:.6g} ({spread}) in {self.episodes:,} episodes{agents}>"
 
 
 def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: int) -> Evaluation:

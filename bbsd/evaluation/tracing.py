@@ -1,17 +1,17 @@
-"""The trace of one episode, step by step: stored and defined values, controlling behaviors, reward terms."""
+"""How the trace of one episode is made."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import isfinite
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bbsd.compiler.details import traced_columns
 from bbsd.evaluation.decisions import decisions_of, layers_of
 from bbsd.evaluation.scene import scene, starting_values, values_of
+from bbsd.evaluation.traced import Trace
 from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.situation import definitions_at_the_start
@@ -23,50 +23,13 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.compiler.details import Column
-    from bbsd.evaluation.decisions import Decisions, Layer
     from bbsd.evaluation.scene import Scene
+    from bbsd.evaluation.traced import Floats, Value
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
 
 EXPECTATION = ("", "failed", "held")
 """The meaning of the numbers 0, 1, 2 in a record."""
-
-Floats = npt.NDArray[np.float64]
-Value: TypeAlias = float | int | bool | str
-"""A number, a whole number, a truth, or the label of a cell."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Trace:
-    """An episode as columns of equal length, one entry a step.
-
-    `values` are world, state, sensors and definitions after the step, `controlling[robot]` the names of the controlling
-    behaviors, `actions[robot]` their actions, `rewards[term][robot]` what each term gave, `decisions` what every
-    behavior perceived and wanted, `layers` the names that belong to it. Truths and whole numbers are values as such.
-    """
-
-    steps: npt.NDArray[np.int64]
-    values: dict[Slot, list[Value]]
-    start: dict[Slot, Value]
-    """The same values before the first step."""
-    controlling: list[list[str]]
-    actions: list[list[str]]
-    rewards: dict[str, list[Floats]]
-    robots: int
-    decisions: Decisions
-    layers: tuple[Layer, ...]
-    """Highest first."""
-    expectations: list[list[str]] = field(default_factory=list)
-    """For each robot whether the expectation of its controlling behavior `held` or `failed`, '' where it has none.
-
-    Empty where no behavior of the spec expects anything.
-    """
-    scene: Scene | None = None
-    """The scene of the spec's view, if it has one."""
-
-    def before(self, step: int) -> dict[Slot, Value]:
-        """Return the values on which the decisions of a step are made; steps are counted from 1."""
-        return self.start if step == 1 else {slot: column[step - 2] for slot, column in self.values.items()}
 
 
 def trace(problem: Problem, architecture: Architecture, key: int, generation: int) -> Trace:

@@ -180,6 +180,9 @@ class Explanation:
     inputs: tuple[GlossaryEntry, ...]
     actions: tuple[GlossaryEntry, ...]
 
+    def __repr__(self) -> str:
+        return f"<Explanation of {self.name}: {' '.join(layer.behavior for layer in self.layers)}>"
+
     def to_plain(self) -> dict[str, Any]:
         """Return the explanation as plain data for JSON."""
         plain = asdict(self)

@@ -41,6 +41,9 @@ class Loaded:
     spec: Spec
     meaning: Meaning
 
+    def __repr__(self) -> str:
+        return f"<Loaded {self.source.file}: {self.spec.name}>"
+
 
 def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
     """Read, validate and elaborate a spec, its constants drawn from the seed.

@@ -7,18 +7,14 @@ from enum import StrEnum
 from io import StringIO
 from typing import TYPE_CHECKING
 
+from bbsd.evaluation.traced import trace_columns
 from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
     from bbsd.evaluation import Trace
-    from bbsd.evaluation.decisions import Layer
-
-    Cell = float | int | bool | str
-
-    Column = tuple[Slot, list[Cell]]
-    """A name with its robot, and a value before the first step and after each."""
+    from bbsd.evaluation.traced import Value
 
 
 class TraceFormat(StrEnum):
@@ -55,38 +51,5 @@ def _long(trace: Trace) -> Iterator[list[object]]:
                 yield [step, whose, Slot(name, None, place).text(1), _text(values[step])]
 
 
-def _text(value: Cell) -> object:
+def _text(value: Value) -> object:
     return str(value).lower() if isinstance(value, bool) else value
-
-
-def trace_columns(trace: Trace) -> Iterator[Column]:
-    """Yield all that a trace tells, one column after another; what is not known at the start is ''."""
-    for slot, values in trace.values.items():
-        yield slot, [trace.start[slot], *values]
-    for robot in range(trace.robots):
-        yield Slot("controlling", robot), ["", *trace.controlling[robot]]
-        yield Slot("action", robot), ["", *trace.actions[robot]]
-    for robot, expectations in enumerate(trace.expectations):
-        yield Slot("expectation", robot), ["", *expectations]
-    for term, robots in trace.rewards.items():
-        for robot, earned in enumerate(robots):
-            yield Slot(f"reward_{term}", robot), ["", *earned.tolist()]
-    for robot in range(trace.robots):
-        for layer in trace.layers:
-            yield from _decisions(trace, layer, robot)
-
-
-def _decisions(trace: Trace, layer: Layer, robot: int) -> Iterator[Column]:
-    """Yield whether a layer's behavior was excited, the cell that it was in, and what it wanted."""
-    excited, cells, wishes = (
-        decided[:, robot, layer.index].tolist()
-        for decided in (trace.decisions.excited, trace.decisions.cells, trace.decisions.wishes)
-    )
-    yield Slot(f"excited_{layer.behavior}", robot), ["", *excited]
-    if layer.inputs:
-        yield Slot(f"cell_{layer.behavior}", robot), ["", *_cells(layer, cells)]
-    yield Slot(f"wish_{layer.behavior}", robot), ["", *map(layer.wish, wishes)]
-
-
-def _cells(layer: Layer, cells: Iterable[int]) -> list[str]:
-    return [", ".join(f"{name}={label}" for name, label in layer.cell_labels(cell).items()) for cell in cells]

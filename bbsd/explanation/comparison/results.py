@@ -137,3 +137,7 @@ class Comparison:
     def is_same(self) -> bool:
         """Whether tables and structure are the same, so that the designs do the same in every episode of a world."""
         return not (self.rules or self.redefined) and self.order.a == self.order.b
+
+    def __repr__(self) -> str:
+        low, high = self.difference.low, self.difference.high
+        return f"<Comparison: {self.b} earns {self.difference.mean:+.6g} ({low:+.6g} to {high:+.6g}) beside {self.a}>"

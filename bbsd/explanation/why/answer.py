@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.evaluation.decisions import Layer
-    from bbsd.evaluation.tracing import Value
+    from bbsd.evaluation.traced import Value
     from bbsd.explanation.why.otherwise import Otherwise
     from bbsd.explanation.why.redesign import Deciding
     from bbsd.explanation.why.situation import Situation
@@ -62,6 +62,10 @@ class Answer:
     values: Mapping[str, Value | tuple[Value, ...]]
     """The robot's state and sensors, and the world, before the step."""
     otherwise: tuple[Otherwise, ...]
+
+    def __repr__(self) -> str:
+        who = f"robot {self.robot}: " if self.robots > 1 else ""
+        return f"<Answer on {self.design}: {who}{self.action or 'no action'} by {self.behavior}>"
 
     def to_plain(self) -> dict[str, Any]:
         """Return the answer as plain data for JSON; values that are infinite or not a number are None."""

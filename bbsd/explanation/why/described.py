@@ -17,7 +17,7 @@ from bbsd.language.meaning.situation import modules_in_a_situation, uncertain_se
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from bbsd.evaluation.tracing import Value
+    from bbsd.evaluation.traced import Value
     from bbsd.expression.graph import Node
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module

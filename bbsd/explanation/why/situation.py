@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from bbsd.evaluation import Trace
-    from bbsd.evaluation.tracing import Value
+    from bbsd.evaluation.traced import Value
     from bbsd.expression.node_data import Slot
 
 

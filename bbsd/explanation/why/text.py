@@ -12,7 +12,7 @@ from bbsd.explanation.why.aim import NOBODY
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from bbsd.evaluation.tracing import Value
+    from bbsd.evaluation.traced import Value
     from bbsd.explanation.why.answer import Answer, LayerAnswer
     from bbsd.explanation.why.otherwise import DesignChange, Otherwise, Way
 

@@ -182,3 +182,6 @@ class Worth:
     def to_plain(self) -> dict[str, Any]:
         """Return the worth as plain data for JSON."""
         return asdict(self)
+
+    def __repr__(self) -> str:
+        return f"<Worth of {self.name}: {len(self.behaviors)} behaviors, mean return {self.returns.mean:.6g}>"

@@ -57,6 +57,18 @@ class Watched:
     result: Line
     """What `run.json` says of the answer; empty where there is none."""
 
+    def to_frame(self) -> Any:  # noqa: ANN401 - pandas is optional
+        """Return the metrics of all runs so far as a pandas DataFrame, a row for each record or generation.
+
+        Raises NoPandas where pandas is not installed.
+        """
+        from bbsd.evaluation.frames import metrics_frame
+
+        return metrics_frame({"rival": run.rival, **line} for run in self.runs for line in run.lines)
+
+    def __repr__(self) -> str:
+        return f"<Watched {self.folder}: {self.state}, {len(self.runs)} of {self.n_runs} runs>"
+
 
 def look(folder: Path) -> Watched:
     """Return how far the design in a folder is now."""
