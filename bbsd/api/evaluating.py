@@ -17,6 +17,7 @@ from bbsd.evaluation import (
     evaluation,
     evaluation_key,
     evaluation_keys,
+    from_the_top,
     weighted_evaluation,
 )
 from bbsd.kernel.keys import own_keys
@@ -50,6 +51,7 @@ def evaluate(
     jobs: int = 1,
     overrides: Sequence[str] = (),
     progress: Callable[[int, int], None] | None = None,
+    keep_each: bool = False,
 ) -> Evaluation:
     """Run episodes of a spec's design and return their statistics.
 
@@ -65,6 +67,7 @@ def evaluate(
         jobs: Threads to use; affects only the speed.
         overrides: Values that replace those of the spec.
         progress: Called from time to time with the numbers of finished and of all episodes.
+        keep_each: Keep what each episode brought, as `each`.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -79,16 +82,20 @@ def evaluate(
         if fill == "random":
             fillings = random_agents(problem, fold(key, name_word("agents")), agents)
             streams = own_keys(key, agents, episodes or EPISODES_OF_RANDOM_AGENT)
-            return evaluation(problem, _reported(problem, fillings, streams, generation, progress), agents)
-        agent = agents_of([given_architecture(problem)])
+            outcomes = _reported(problem, fillings, streams, generation, progress)
+            return evaluation(problem, outcomes, agents, keep_each=keep_each)
+        architecture = given_architecture(problem)
+        agent = agents_of([architecture])
+        structure = [problem.names[behavior] for behavior in reversed(architecture.structure.tolist())]
         if exact:
             problem, weights = enumerate_starts(problem)
             starts = np.arange(len(weights), dtype=np.uint64)
-            return weighted_evaluation(
-                problem, _reported(problem, agent, starts, generation, progress), weights
-            )
+            outcomes = _reported(problem, agent, starts, generation, progress)
+            measured = weighted_evaluation(problem, outcomes, weights, keep_each=keep_each)
+            return from_the_top(measured, structure)
         streams = evaluation_keys(seed, episodes or EPISODES_OF_DESIGN)
-        return evaluation(problem, _reported(problem, agent, streams, generation, progress), 1)
+        outcomes = _reported(problem, agent, streams, generation, progress)
+        return from_the_top(evaluation(problem, outcomes, 1, keep_each=keep_each), structure)
 
 
 def _reported(

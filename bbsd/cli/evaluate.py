@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson, DesignFile, Jobs, Lanes, Overrides, Seed
+from bbsd.cli.options import AsJson, DesignFile, Episode, Jobs, Lanes, Overrides, Seed, read_episode
 from bbsd.cli.output import error_console, has_blocks, require_writable_file, say, show, show_table
 from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
 from bbsd.files import write_text_whole
-from bbsd.report.csv_text import csv_text
 from bbsd.report.figures import draw_episode, require_figure
 from bbsd.report.plain import evaluation_plain, json_text
 
 if TYPE_CHECKING:
-    from bbsd.evaluation import Evaluation
+    from bbsd.evaluation import Evaluation, Rank, Trace
     from bbsd.language.loading import Loaded
 
 
@@ -25,6 +24,13 @@ class NothingExpected(UsageError):
     """`--expect-at-least` for a spec without expectations."""
 
     advice = "add expects: CONDITION to a behavior, or omit the option"
+
+
+class TraceFormat(StrEnum):
+    """How a trace is laid out: a column for each value, or a line for each value of each step."""
+
+    WIDE = "wide"
+    LONG = "long"
 
 
 class Fill(StrEnum):
@@ -70,11 +76,23 @@ def evaluate(
         ),
     ] = False,
     overrides: Overrides = None,
-    trace: Annotated[
-        Path | None, typer.Option(metavar="FILE.csv", help="Write the first episode step by step.")
+    returns: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.csv", help="Write a line for each episode: return, terms, steps."),
     ] = None,
+    episode: Episode = "0",
+    trace: Annotated[
+        Path | None, typer.Option(metavar="FILE.csv", help="Write the episode step by step.")
+    ] = None,
+    trace_format: Annotated[
+        TraceFormat,
+        typer.Option(help="A column for each value, or a line for each value of each step."),
+    ] = TraceFormat.WIDE,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="Draw the first episode, as .png, .svg or .pdf.")
+        Path | None,
+        typer.Option(
+            "--plot-to", "--plot", metavar="FILE.png", help="Draw the episode, as .png, .svg or .pdf."
+        ),
     ] = None,
     fault: Annotated[
         list[str] | None,
@@ -102,11 +120,14 @@ def evaluate(
         raise typer.BadParameter(
             "--exact, --trace and --plot need one complete design, so they exclude --fill"
         )
-    if fault and (fill or exact or trace or plot or expect_at_least is not None):
+    if fault and (fill or exact or returns or trace or plot or expect_at_least is not None):
         raise typer.BadParameter("--fault goes with --episodes, --seed, --relearn and --at-least alone")
     if relearn and not fault:
         raise typer.BadParameter("--relearn needs --fault")
-    _require_outputs(trace, plot)
+    chosen = read_episode(episode)
+    if exact and isinstance(chosen, str):
+        raise typer.BadParameter(f"--episode {chosen} is among random episodes, so it excludes --exact")
+    _require_outputs(returns, trace, plot)
     loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
     if expect_at_least is not None:
         _require_expectations(loaded)
@@ -128,10 +149,16 @@ def evaluate(
             lanes=lanes,
             jobs=jobs,
             progress=listener,
+            keep_each=returns is not None,
         )
     _show(evaluation, as_json=as_json)
+    if returns and evaluation.each is not None:
+        from bbsd.report.csv_text import returns_text
+
+        write_text_whole(returns, returns_text(evaluation.each), through_links=True)
     if trace or plot:
-        _write_episode(loaded, seed, trace, plot)
+        number = chosen if isinstance(chosen, int) else _number_of(chosen, evaluation)
+        _write_episode(bbsd.trace(loaded, seed=seed, episode=number), loaded, trace, trace_format, plot)
     failures = [*too_low(evaluation.mean, at_least), *_too_rare(evaluation, expect_at_least)]
     for failure in failures:
         say(failure)
@@ -144,10 +171,10 @@ def _require_expectations(loaded: "Loaded") -> None:
         raise NothingExpected("--expect-at-least: no behavior of this spec has an expectation")
 
 
-def _require_outputs(trace: Path | None, plot: Path | None) -> None:
+def _require_outputs(returns: Path | None, trace: Path | None, plot: Path | None) -> None:
     if plot:
         require_figure(plot)
-    for path in (trace, plot):
+    for path in (returns, trace, plot):
         if path:
             require_writable_file(path)
 
@@ -161,12 +188,21 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
     show_table(evaluation_table(evaluation, blocks=has_blocks()))
 
 
-def _write_episode(loaded: "Loaded", seed: int, trace: Path | None, plot: Path | None) -> None:
-    first_episode = bbsd.trace(loaded, seed=seed)
+def _write_episode(
+    traced: "Trace", loaded: "Loaded", trace: Path | None, trace_format: TraceFormat, plot: Path | None
+) -> None:
     if trace:
-        write_text_whole(trace, csv_text(first_episode), through_links=True)
+        from bbsd.report.csv_text import csv_text
+
+        text = csv_text(traced, long=trace_format is TraceFormat.LONG)
+        write_text_whole(trace, text, through_links=True)
     if plot:
-        draw_episode(first_episode, loaded.spec, plot)
+        draw_episode(traced, loaded.spec, plot)
+
+
+def _number_of(rank: "Rank", evaluation: "Evaluation") -> int:
+    """Return the number of the worst, median or best of the episodes that were run."""
+    return 0 if evaluation.spread is None else evaluation.spread.episodes[rank]
 
 
 def _too_rare(evaluation: "Evaluation", least: float | None) -> list[str]:

@@ -102,6 +102,6 @@ Episode = Annotated[
     typer.Option(
         "--episode",
         metavar="N|worst|median|best",
-        help="An episode of bbsd evaluate: its number from 0, or by its return among the first 1000.",
+        help="An episode of bbsd evaluate: its number from 0, or by its return among all that are run.",
     ),
 ]

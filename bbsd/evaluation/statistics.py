@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from math import fsum, sqrt
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from bbsd.evaluation.frames import frame
+from bbsd.evaluation.spread import EachEpisode, Spread, spread_of, weighted_spread
 from bbsd.evaluation.sums import column_sums, deviation, expectation, mean, row_means
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from bbsd.compiler import DetailedOutcome, Problem
 
@@ -65,6 +66,10 @@ class Evaluation:
     NaN where it never controlled.
     """
     exact: bool = False
+    spread: Spread | None = None
+    """The returns of single episodes; None of a single one."""
+    each: EachEpisode | None = field(default=None, compare=False, repr=False)
+    """What each episode brought, where that was to be kept."""
 
     @property
     def mean(self) -> float:
@@ -103,24 +108,51 @@ class Evaluation:
         return f"<Evaluation: mean return {self.mean:.6g} ({spread}) in {self.episodes:,} episodes{agents}>"
 
 
-def evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], agents: int) -> Evaluation:
+def evaluation(
+    problem: Problem, outcomes: Iterable[DetailedOutcome], agents: int, *, keep_each: bool = False
+) -> Evaluation:
     """Summarize the outcomes of agents' episodes, agent after agent, equally many for each.
 
-    With several agents the interval is that of the mean over agents, since episodes of one agent belong together.
+    With several agents the interval is that of the mean over agents, since episodes of one agent belong together. What
+    each episode brought is kept where `keep_each`, else only its return.
     """
-    parts = [_sums(outcome) for outcome in outcomes]
+    parts: list[DetailedOutcome] = []
+    kept: list[_Kept] = []
+    for outcome in outcomes:
+        parts.append(_sums(outcome))
+        if keep_each:
+            kept.append((outcome.returns, outcome.terms, outcome.steps_taken))
     returns = np.concatenate([part.returns for part in parts])
     terms, control, not_finite, met = (
         column_sums(np.stack([getattr(part, name) for part in parts]))
         for name in ("terms", "control", "not_finite", "expectations_met")
     )
     steps_taken = fsum(float(part.steps_taken[0]) for part in parts)
-    spread = interval(returns)
+    over_episodes = interval(returns)
     if agents > 1:
         by_agent = interval(row_means(returns.reshape(agents, -1)))
-        spread = Interval(spread.mean, spread.sd, by_agent.low, by_agent.high, len(returns))
+        over_episodes = replace(over_episodes, low=by_agent.low, high=by_agent.high)
     named = _means_by_name(problem, terms, control, steps_taken, not_finite, met, float(len(returns)))
-    return Evaluation(spread, len(returns), agents, *named)
+    return Evaluation(
+        over_episodes,
+        len(returns),
+        agents,
+        *named,
+        spread=spread_of(returns, numbered=agents == 1) if len(returns) > 1 else None,
+        each=_each(problem, kept, agents) if keep_each else None,
+    )
+
+
+_Kept: TypeAlias = "tuple[Floats, Floats, Floats]"
+"""Returns (n,), terms (n, n_terms) and steps (n,) of a batch."""
+
+
+def _each(
+    problem: Problem, kept: Sequence[_Kept], agents: int = 1, probabilities: Floats | None = None
+) -> EachEpisode:
+    returns, terms, steps = (np.concatenate(batches) for batches in zip(*kept, strict=True))
+    by_term = dict(zip(problem.meaning.episode.reward, terms.T, strict=True))
+    return EachEpisode(returns, by_term, steps, agents, probabilities)
 
 
 def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
@@ -136,7 +168,9 @@ def _sums(outcome: DetailedOutcome) -> DetailedOutcome:
     )
 
 
-def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], weights: Floats) -> Evaluation:
+def weighted_evaluation(
+    problem: Problem, outcomes: Iterable[DetailedOutcome], weights: Floats, *, keep_each: bool = False
+) -> Evaluation:
     """Return the exact expectation over all possible episodes by their probabilities (n,), which sum to 1."""
     parts = list(outcomes)
     returns, terms, control, steps_taken, not_finite, met = (
@@ -150,7 +184,29 @@ def weighted_evaluation(problem: Problem, outcomes: Iterable[DetailedOutcome], w
     )
     steps, counts = expectation(weights, steps_taken), column_sums(not_finite)
     named = _means_by_name(problem, by_term, by_control, steps, counts, by_met, 1.0)
-    return Evaluation(Interval(center, sd, center, center, len(weights)), len(weights), 1, *named, exact=True)
+    return Evaluation(
+        Interval(center, sd, center, center, len(weights)),
+        len(weights),
+        1,
+        *named,
+        exact=True,
+        spread=weighted_spread(returns, weights) if len(weights) > 1 else None,
+        each=_each(problem, [(returns, terms, steps_taken)], probabilities=weights) if keep_each else None,
+    )
+
+
+def from_the_top(measured: Evaluation, structure: Sequence[str]) -> Evaluation:
+    """Return an evaluation whose behaviors are in the order of a structure, highest layer first; nobody is last."""
+
+    def ordered(shares: dict[str, float]) -> dict[str, float]:
+        names = [*structure, *(name for name in shares if name not in structure)]
+        return {name: shares[name] for name in names if name in shares}
+
+    return replace(
+        measured,
+        control_share=ordered(measured.control_share),
+        expectation_share=ordered(measured.expectation_share),
+    )
 
 
 def _means_by_name(

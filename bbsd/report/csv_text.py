@@ -1,9 +1,8 @@
-"""An episode as comma-separated values: a line for each step, or for each value of each step."""
+"""Comma-separated values: of an episode a line for each step or value, of an evaluation a line for each episode."""
 
 from __future__ import annotations
 
 import csv
-from enum import StrEnum
 from io import StringIO
 from typing import TYPE_CHECKING
 
@@ -13,22 +12,38 @@ from bbsd.expression.node_data import Slot
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bbsd.evaluation import Trace
+    from bbsd.evaluation import EachEpisode, Trace
     from bbsd.evaluation.traced import Value
 
 
-class TraceFormat(StrEnum):
-    """How a trace is laid out: a column for each value, or a line for each value of each step."""
+def csv_text(trace: Trace, *, long: bool = False) -> str:
+    """Return a trace as CSV, a column for each value, or a line for each value of each step (`long`).
 
-    WIDE = "wide"
-    LONG = "long"
-
-
-def csv_text(trace: Trace, form: TraceFormat = TraceFormat.WIDE) -> str:
-    """Return a trace as CSV; step 0 is the start. Numbers have all their digits, truths are true and false."""
-    lines = _wide(trace) if form is TraceFormat.WIDE else _long(trace)
+    Step 0 is the start. Numbers have all their digits, truths are true and false.
+    """
+    lines = _long(trace) if long else _wide(trace)
     text = StringIO()
     csv.writer(text, lineterminator="\n").writerows(lines)
+    return text.getvalue()
+
+
+def returns_text(each: EachEpisode) -> str:
+    """Return a line for each episode: its number, its return, each reward term, its steps.
+
+    Of several agents it begins with the agent; where every possible start was run, its probability follows the number.
+    """
+    n_episodes = len(each.returns) // each.agents
+    columns: dict[str, list[object]] = {}
+    if each.agents > 1:
+        columns["agent"] = [index // n_episodes for index in range(len(each.returns))]
+    columns["episode"] = [index % n_episodes for index in range(len(each.returns))]
+    if each.probabilities is not None:
+        columns["probability"] = each.probabilities.tolist()
+    columns["return"] = each.returns.tolist()
+    columns |= {f"reward_{name}": values.tolist() for name, values in each.terms.items()}
+    columns["steps"] = each.steps.astype(int).tolist()
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerows([[*columns], *zip(*columns.values(), strict=True)])
     return text.getvalue()
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from bbsd.api import Designed
-    from bbsd.evaluation import Evaluation, Interval
+    from bbsd.evaluation import Evaluation, Interval, Spread
     from bbsd.runs.rivals import Rival
 
 Plain: TypeAlias = "Mapping[str, Plain] | Sequence[Plain] | str | int | float | bool | None"
@@ -34,6 +34,8 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
         "reward_terms": {name: finite_or_none(value) for name, value in evaluation.reward_terms.items()},
         "control_share": {name: finite_or_none(value) for name, value in evaluation.control_share.items()},
     }
+    if evaluation.spread is not None:
+        plain["spread"] = spread_plain(evaluation.spread)
     if evaluation.expectation_share:
         shares = evaluation.expectation_share
         plain["expectation_share"] = {name: finite_or_none(value) for name, value in shares.items()}
@@ -95,6 +97,16 @@ def interval_plain(interval: Interval) -> dict[str, Plain]:
         "mean": finite_or_none(interval.mean),
         "sd": finite_or_none(interval.sd),
         "ci95": [finite_or_none(interval.low), finite_or_none(interval.high)],
+    }
+
+
+def spread_plain(spread: Spread) -> dict[str, Plain]:
+    """Return how the returns of single episodes are spread, and the numbers of the episodes if they have any."""
+    return {
+        "worst": finite_or_none(spread.worst),
+        "best": finite_or_none(spread.best),
+        "quantiles": {str(percent): finite_or_none(value) for percent, value in spread.quantiles.items()},
+        "episodes": {str(rank): number for rank, number in spread.episodes.items()},
     }
 
 

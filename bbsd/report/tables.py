@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from bbsd.api import Designed
-    from bbsd.evaluation import Evaluation, Interval
+    from bbsd.evaluation import Evaluation, Interval, Spread
 
 BAR_WIDTH = 24
 INTERVAL = "95 % interval"
@@ -34,6 +34,7 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
     """
     parts: list[RenderableType] = [
         Group(_return(evaluation), _basis(evaluation)),
+        *([] if evaluation.spread is None else [_spread(evaluation.spread)]),
         _reward_terms(evaluation),
         _control(evaluation, blocks=blocks),
     ]
@@ -122,6 +123,18 @@ def _basis(evaluation: Evaluation) -> str:
         return f"all {count(evaluation.episodes, 'start')}, {steps} each"
     agents = f" by {count(evaluation.agents, 'agent')}" if evaluation.agents > 1 else ""
     return f"{count(evaluation.episodes, 'episode')} of {steps}{agents}"
+
+
+def _spread(spread: Spread) -> Table:
+    """Return the table of single episodes' returns; the median's number is that of the episode nearest to it."""
+    headings = ["worst", *(f"{percent} %" for percent in spread.quantiles), "best"]
+    table = _table("episodes", *headings, right=range(1, len(headings) + 1))
+    table.add_row("return", *column([spread.worst, *spread.quantiles.values(), spread.best]))
+    if spread.episodes:
+        numbers = {"worst": spread.episodes["worst"], "50 %": spread.episodes["median"]}
+        numbers["best"] = spread.episodes["best"]
+        table.add_row("number", *(str(numbers.get(heading, "")) for heading in headings))
+    return table
 
 
 def _reward_terms(evaluation: Evaluation) -> Table:

@@ -3,7 +3,10 @@ from __future__ import annotations
 import csv
 from io import StringIO
 
-from bbsd.report.csv_text import TraceFormat, csv_text
+import numpy as np
+
+from bbsd.evaluation import EachEpisode
+from bbsd.report.csv_text import csv_text, returns_text
 
 
 def lines_of(text):
@@ -36,7 +39,7 @@ def test_each_layer_tells_whether_it_was_excited_its_cell_and_its_wish(trace):
 
 
 def test_a_long_trace_has_a_line_for_each_value_of_each_step(trace):
-    wide, long = lines_of(csv_text(trace)), lines_of(csv_text(trace, TraceFormat.LONG))
+    wide, long = lines_of(csv_text(trace)), lines_of(csv_text(trace, long=True))
     assert [*long[0]] == ["step", "robot", "name", "value"]
     by_key = {(line["step"], f"{line['name']}_{line['robot']}"): line["value"] for line in long}
     assert len(by_key) == len(long)
@@ -46,3 +49,17 @@ def test_a_long_trace_has_a_line_for_each_value_of_each_step(trace):
         for name, value in line.items()
         if name != "step" and value != ""
     }
+
+
+def test_each_episode_has_a_line():
+    each = EachEpisode(np.array([1.5, 2.0]), {"near": np.array([1.0, 3.0])}, np.array([4.0, 5.0]))
+    assert returns_text(each) == "episode,return,reward_near,steps\n0,1.5,1.0,4\n1,2.0,3.0,5\n"
+
+
+def test_each_episode_tells_its_agent_or_its_probability_where_there_are_several():
+    returns, terms, steps = np.arange(4.0), {}, np.full(4, 9.0)
+    by_agent = returns_text(EachEpisode(returns, terms, steps, agents=2)).splitlines()
+    assert by_agent[0] == "agent,episode,return,steps"
+    assert [line[:4] for line in by_agent[1:]] == ["0,0,", "0,1,", "1,0,", "1,1,"]
+    by_start = returns_text(EachEpisode(returns, terms, steps, probabilities=np.full(4, 0.25))).splitlines()
+    assert by_start[1] == "0,0.25,0.0,9"
