@@ -57,9 +57,9 @@ def why(
         NoSuchAction: a name stands for nothing.
         AsItWas: what is unwanted did not control, or what is wanted did.
     """
+    loaded = load(spec, seed=seed, overrides=overrides)
     if (step is None) is (not at):
         raise NoMoment("a step of an episode or a situation is needed" if step is None else "both are given")
-    loaded = load(spec, seed=seed, overrides=overrides)
     architecture = architecture_of(loaded.meaning)
     number = None
     if step is None:

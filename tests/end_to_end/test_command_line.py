@@ -229,7 +229,9 @@ def test_an_evaluation_for_programs(designed):
     code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", "--episodes", 50, "--json")
     assert (code, err) == (0, "")
     result = json.loads(out)
-    assert [*result] == [*("return", "episodes", "agents", "exact", "steps", "reward_terms", "control_share")]
+    assert [*result] == [
+        *("return", "episodes", "agents", "exact", "steps", "reward_terms", "control_share", "spread")
+    ]
     assert [*result["return"]] == ["mean", "sd", "ci95"]
     assert [*result["reward_terms"]] == ["comfort", "gas"]
     assert [*result["control_share"]] == ["heat", "save", "nobody"]
@@ -295,7 +297,7 @@ def test_expectations_are_told_of_in_every_form(tmp_path):
     assert json.loads(out)["expectation_share"] == {"climb": 0.5, "fall": None}
     head, *rows = table.read_text().splitlines()
     place = head.split(",").index("expectation")
-    assert [row.split(",")[place] for row in rows] == ["held", "held", "failed", "failed"]
+    assert [row.split(",")[place] for row in rows] == ["", "held", "held", "failed", "failed"]
     assert "Expects afterwards: x < 5" in bbsd("explain", spec)[1]
     assert "expects: x < 5 " in bbsd("config", spec)[1]
 
@@ -329,12 +331,47 @@ def test_an_episode_can_be_written_and_drawn(designed, tmp_path):
         figure,
     ]
     assert bbsd(*words)[0] == 0
-    assert len(table.read_text().splitlines()) == 21
+    assert len(table.read_text().splitlines()) == 22
     assert "<!-- warmth -->" in figure.read_text()
 
 
+def test_any_episode_can_be_written_by_its_number_or_its_rank(designed, tmp_path):
+    table, returns = tmp_path / "episode.csv", tmp_path / "returns.csv"
+    words = ["evaluate", designed[0] / "architecture.yaml", "--episodes", 30, "--json"]
+    words += ["--trace", table, "--trace-format", "long", "--returns", returns]
+    code, out, _ = bbsd(*words, "--episode", "worst")
+    assert code == 0
+    spread = json.loads(out)["spread"]
+    by_episode = [float(line.split(",")[1]) for line in returns.read_text().splitlines()[1:]]
+    assert (len(by_episode), by_episode.index(min(by_episode))) == (30, spread["episodes"]["worst"])
+    assert earned(table) == pytest.approx(spread["worst"]) == min(by_episode)
+    for number in (0, 7):
+        bbsd(*words, "--episode", number)
+        assert earned(table) == pytest.approx(by_episode[number])
+
+
+def earned(table):
+    """The return of an episode that was written as a long table, of one robot."""
+    lines = [line.split(",") for line in table.read_text().splitlines()]
+    assert lines[0] == ["step", "robot", "name", "value"]
+    return sum(float(value) for _, _, name, value in lines[1:] if name.startswith("reward_"))
+
+
+@pytest.mark.parametrize("words", [["--exact", "--episode", "best"], ["--episode", "first"]])
+def test_an_episode_that_is_not_among_those_that_are_run_is_refused(designed, words):
+    code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", *words)
+    assert (code, out) == (2, "")
+    assert "Traceback" not in err
+
+
 @pytest.mark.parametrize(
-    "words", [["--trace", "no/episode.csv"], ["--plot", "episode.gif"], ["--trace", "."]]
+    "words",
+    [
+        ["--trace", "no/episode.csv"],
+        ["--plot-to", "episode.gif"],
+        ["--trace", "."],
+        ["--returns", "no/it.csv"],
+    ],
 )
 def test_an_output_that_cannot_be_written_is_found_before_the_run(designed, tmp_path, words):
     code, out, err = bbsd("evaluate", designed[0] / "architecture.yaml", *words, cwd=tmp_path)

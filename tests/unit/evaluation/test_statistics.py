@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bbsd.compiler import DetailedOutcome
-from bbsd.evaluation import evaluation, interval, weighted_evaluation
+from bbsd.evaluation import evaluation, from_the_top, interval, weighted_evaluation
 from tests.unit.problems import problem_of
 
 TWO = """
@@ -78,3 +78,25 @@ def test_an_exact_evaluation_weighs_every_episode():
     assert found.expectation_share["a"] == pytest.approx(2 / 3)
     assert math.isnan(found.expectation_share["b"])
     assert found.steps == 4
+
+
+def test_what_each_episode_brought_is_kept_where_it_is_asked_for():
+    problem = problem_of(TWO)
+    outcomes = [outcome([1.0, 3.0]), outcome([2.0], taken=3.0)]
+    found = evaluation(problem, outcomes, 1, keep_each=True)
+    assert found.each.returns.tolist() == [1, 3, 2]
+    assert found.each.terms["one"].tolist() == [2, 6, 4]
+    assert found.each.steps.tolist() == [4, 4, 3]
+    assert found.spread.episodes == {"worst": 0, "median": 2, "best": 1}
+    assert evaluation(problem, outcomes, 1).each is None
+    assert evaluation(problem, outcomes[1:], 1).spread is None
+    exact = weighted_evaluation(problem, outcomes, np.array([0.5, 0.25, 0.25]), keep_each=True)
+    assert exact.each.probabilities.tolist() == [0.5, 0.25, 0.25]
+
+
+def test_behaviors_can_be_in_the_order_of_layers():
+    found = from_the_top(evaluation(problem_of(TWO), [outcome([1.0, 3.0])], 1), ["b", "a"])
+    assert [*found.control_share] == ["b", "a", "nobody"]
+    assert [*found.expectation_share] == ["b", "a"]
+    left_out = from_the_top(found, ["a"])
+    assert [*left_out.control_share] == ["a", "b", "nobody"]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from bbsd.evaluation import Interval
+from bbsd.evaluation import Interval, Spread
 from bbsd.report.tables import design_table, evaluation_table, seeds_table
 from bbsd.runs.rivals import Rival
 
@@ -27,6 +27,18 @@ def test_an_evaluation_shows_the_return_with_its_interval_and_basis(evaluation):
     assert "301.37   7.02                 300.94 to 301.81\n1,000 episodes of 300 steps" in printed(
         evaluation_table(evaluation)
     )
+
+
+def test_an_evaluation_shows_how_single_episodes_are_spread(evaluation):
+    spread = Spread(
+        277.9, 313.6, {5: 288.0, 50: 303.0, 95: 311.0}, {"worst": 521, "median": 550, "best": 365}
+    )
+    text = printed(evaluation_table(replace(evaluation, spread=spread)))
+    assert row(text, "episodes") == ["episodes", "worst", "5", "%", "50", "%", "95", "%", "best"]
+    assert row(text, "return     ") == ["return", "277.90", "288.00", "303.00", "311.00", "313.60"]
+    assert row(text, "number") == ["number", "521", "550", "365"]
+    text = printed(evaluation_table(replace(evaluation, spread=replace(spread, episodes={}))))
+    assert "number" not in text
 
 
 def test_an_evaluation_shows_each_reward_term_and_who_was_in_control(evaluation):
