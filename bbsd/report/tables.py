@@ -128,7 +128,7 @@ def _basis(evaluation: Evaluation) -> str:
 def _spread(spread: Spread) -> Table:
     """Return the table of single episodes' returns; the median's number is that of the episode nearest to it."""
     headings = ["worst", *(f"{percent} %" for percent in spread.quantiles), "best"]
-    table = _table("episodes", *headings, right=range(1, len(headings) + 1))
+    table = plain_table("episodes", *headings, right=range(1, len(headings) + 1))
     table.add_row("return", *column([spread.worst, *spread.quantiles.values(), spread.best]))
     if spread.episodes:
         numbers = {"worst": spread.episodes["worst"], "50 %": spread.episodes["median"]}
