@@ -30,8 +30,9 @@ MOST_KEPT = 256
 """Boxes, and cells that no box may hold, up to which the shortest list is found."""
 MOST_WORK = 8_000_000
 """Boxes tried, counted for each set of undecided cells, before the search gives up: some tenths of a second."""
-SCALE = 64
-"""What a word costs beside the preferences among lists with equally many words."""
+WORD, SAYS_NOTHING, UNUSUAL = 256, 4, 1
+"""What a word costs, and, to choose among lists with equally many words, what is better avoided: No Action before the
+last rule, and a last rule that does not say the most common decision."""
 
 
 class RuleList(NamedTuple):
@@ -101,9 +102,9 @@ def _shortest(values: NDArray[np.int64], most: int) -> list[tuple[Box, int]] | N
         return None
     if np.prod([2.0 ** len(axis.groups) - 1 for axis in axes]) > MOST_BOXES:
         return None
-    wanted = reduced[reduced >= 0]
+    usual = int(np.bincount(values[values >= 0]).argmax())
     boxes = _boxes(axes, cells, np.argwhere(reduced == KEEP))
-    path = _cheapest_path(boxes, wanted, most)
+    path = _cheapest_path(boxes, reduced[reduced >= 0], usual, most)
     if path is None:
         return None
     return [(_box(axes, boxes.chosen[box]), value) for box, value in path]
@@ -154,16 +155,18 @@ def _masks_of(bits: NDArray[np.int64]) -> Masks:
     return sets
 
 
-def _cheapest_path(boxes: Boxes, wanted: NDArray[np.int64], most: int) -> list[tuple[int, int]] | None:
+def _cheapest_path(
+    boxes: Boxes, wanted: NDArray[np.int64], usual: int, most: int
+) -> list[tuple[int, int]] | None:
     """Return the numbers of the boxes with their values; None where the search is too long.
 
     The A* algorithm, a whole level of equal estimates at once: from all cells undecided to none. Of lists with equally
-    many words it prefers one that says No Action only in its last rule.
+    many words it prefers one that says No Action only in its last rule, and there what is `usual`.
     """
     values = np.unique(wanted)
     holding = _masks_of((wanted == values[:, None]).astype(np.int64))
-    n_sets, bound = 1 << len(wanted), (most + 1) * SCALE
-    at_least = _least_words(np.arange(n_sets, dtype=np.uint32), holding) * SCALE
+    n_sets, bound = 1 << len(wanted), (most + 1) * WORD
+    at_least = _least_words(np.arange(n_sets, dtype=np.uint32), holding) * WORD
     best = np.full(n_sets, bound, np.int64)
     estimates = np.full(n_sets, bound, np.int64)
     came_from, by_box = np.zeros(n_sets, np.uint32), np.zeros(n_sets, np.int64)
@@ -180,7 +183,13 @@ def _cheapest_path(boxes: Boxes, wanted: NDArray[np.int64], most: int) -> list[t
         rows, columns = np.nonzero((decided > 0) & np.any(of_value, axis=0))
         left = present[rows] & ~decided[rows, columns]
         says_nothing = (values[0] == NO_ACTION) & of_value[0][rows, columns] & (left > 0)
-        costs = best[present[rows]] + boxes.costs[columns] * SCALE + says_nothing
+        is_unusual = (left == 0) & ~of_value[int(np.searchsorted(values, usual))][rows, columns]
+        costs = (
+            best[present[rows]]
+            + boxes.costs[columns] * WORD
+            + says_nothing * SAYS_NOTHING
+            + is_unusual * UNUSUAL
+        )
         is_better = (costs < best[left]) & (costs + at_least[left] < bound)
         rows, columns, left, costs = (each[is_better] for each in (rows, columns, left, costs))
         np.minimum.at(best, left, costs)

@@ -29,8 +29,9 @@ class Cares:
     counts: Cells
     """The rules have to say what the table says."""
     covered: Cells
-    """A higher layer always acts before, or the behavior is never excited."""
+    """A higher layer always acts before."""
     impossible: Cells
+    """They cannot occur, or not while the behavior is excited."""
     unasked: Cells
     """It could matter, and was never asked in the episodes looked at."""
     prevented_by: tuple[int, ...]
@@ -63,7 +64,8 @@ def cares_of(
         space: the joint space.
         architecture: tables and structure.
         possible: which joint cells may occur, of the shape `space.sizes`; None if nothing is known.
-        controller: the controlling behavior in every joint cell; None where the space is too large.
+        controller: the controlling behavior in every joint cell, below 0 where there is none; None where the space is
+            too large.
         visits: None where they are not known.
     """
     matters = (
@@ -85,6 +87,7 @@ def cares_of(
 def _cares(matters: Cells, occurs: Cells, asked: Cells | None, prevented_by: tuple[int, ...]) -> Cares:
     if not matters.any():
         # It never decides anything: all of its table is of interest, or what can occur of it.
+        occurs = occurs if occurs.any() else ~occurs
         return Cares(occurs, np.zeros_like(occurs), ~occurs, np.zeros_like(occurs), prevented_by)
     is_known = asked is not None and (asked & matters).any()
     unasked = matters & ~asked if asked is not None and is_known else np.zeros_like(matters)
@@ -92,10 +95,12 @@ def _cares(matters: Cells, occurs: Cells, asked: Cells | None, prevented_by: tup
 
 
 def _occurring(space: JointSpace, behavior: int, n_cells: int, possible: Cells | None) -> Cells:
+    """Return in which of its cells a behavior may be excited."""
     if possible is None:
         return np.ones(n_cells, np.bool_)
+    everywhere = decisions(space, behavior, np.ones(n_cells, np.uint8))
     own = np.broadcast_to(own_cells(space, behavior), space.sizes)
-    return any_of(own[possible], n_cells)
+    return any_of(own[possible & (everywhere > 0)], n_cells)
 
 
 def _preventing(
@@ -110,7 +115,7 @@ def _preventing(
         return ()
     acts = np.broadcast_to(decisions(space, behavior, architecture.tables[behavior]) > 0, space.sizes).ravel()
     own = np.broadcast_to(own_cells(space, behavior), space.sizes).ravel()
-    return tuple(np.unique(controller[acts & ~matters[own]]).tolist())
+    return tuple(np.unique(controller[acts & ~matters[own] & (controller >= 0)]).tolist())
 
 
 def any_of(cells: NDArray[np.int64], n_cells: int) -> Cells:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bbsd.architecture.boxes import FREE, KEEP, first_match
 from bbsd.architecture.policy import controlling, joint_space
+from bbsd.architecture.possible import possible_cells
 from bbsd.architecture.rules import n_words_of, sizes_of
 from bbsd.architecture.shortest import rule_list, shortest_cover
 from bbsd.architecture.spec_changes import MOST_WORDS
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.behaviors import Module
     from bbsd.language.meaning.tables.table import Inputs
 
+NOBODY, IMPOSSIBLE = -1, -2
+"""Who controls in a joint cell where no behavior does, and in one that cannot occur."""
 MOST_TABLE = 4096
 """Cells of a table that an explanation lists one by one."""
 
@@ -52,10 +55,14 @@ def explain_architecture(
 
     With `visits`, cells that were never asked do not matter to the rules; what the table says there is listed apart.
     """
-    space, possible = joint_space(meaning), None
+    space = joint_space(meaning)
     order = architecture.structure.tolist()
-    control = controlling(space, architecture) if space.is_small else None
-    nobody = np.zeros(0, bool) if control is None else control < 0
+    possible = possible_cells(meaning, space) if space.is_small else None
+    control = None if possible is None else controlling(space, architecture)
+    if possible is not None and control is not None:
+        control = np.where(possible.ravel(), control, IMPOSSIBLE)
+    nobody = np.zeros(0, bool) if control is None else control == NOBODY
+    never = np.zeros(0, bool) if control is None else control == IMPOSSIBLE
     behaviors = list(meaning.spec.behaviors)
     highest_first = [behaviors[behavior] for behavior in reversed(order)]
     cares = cares_of(space, architecture, possible, control, visits)
@@ -68,7 +75,8 @@ def explain_architecture(
         layers=layers,
         left_out=tuple(name for index, name in enumerate(behaviors) if index not in order),
         joint_size=space.joint_size,
-        nobody=condition_texts(nobody, np.zeros_like(nobody), space.dimensions) if nobody.any() else (),
+        possible_cells=None if possible is None else int(np.count_nonzero(possible)),
+        nobody=condition_texts(nobody, never, space.dimensions) if nobody.any() else (),
         nobody_cells=None if control is None else int(nobody.sum()),
         rows=rows_of(meaning, architecture, cares, visits),
         useless=tuple(useless_of(meaning, architecture, cares, layers, visits)),

@@ -181,7 +181,8 @@ def _situations(explanation: Explanation) -> list[str]:
     if not others:
         return ["Nobody ever controls." if first == "nobody" else f"{first} always controls."]
     shares = [f"{first} controls {cells}", *(f"{name} {count}" for name, count in others)]
-    text = f"Of the {explanation.joint_size} situations that the behaviors can tell apart, {join_words(shares, 'and')}."
+    situations = f"the {explanation.possible_cells} situations that the behaviors can tell apart"
+    text = f"Of {situations}, {join_words(shares, 'and')}."
     return [*wrapped(f"{text} (This counts situations, not time.)"), *_nobody(explanation.nobody)]
 
 

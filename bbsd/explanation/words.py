@@ -61,9 +61,9 @@ class CellKinds:
     count: int
     """Cells in which the rules say what the table says."""
     covered: int
-    """Cells in which a higher layer always acts, or the behavior is never excited."""
+    """Cells in which a higher layer always acts."""
     impossible: int
-    """Cells that cannot occur."""
+    """Cells that cannot occur, or not while the behavior is excited."""
     never_asked: int
     """Cells that were never asked in the episodes looked at."""
 
@@ -171,6 +171,8 @@ class Explanation:
     layers: tuple[LayerInWords, ...]
     left_out: tuple[str, ...]
     joint_size: int
+    possible_cells: int | None
+    """The joint cells that may occur: those that the expressions of the spec do not exclude."""
     nobody: tuple[str, ...]
     nobody_cells: int | None
     rows: tuple[Row, ...]

@@ -13,7 +13,7 @@ FOUR = """
     inputs:
       gap: "cut(x, 0.5, 1, 2)"
       side: "values(floor(x), 0, 2)"
-      lit: x > 3
+      lit: cos(x) > 0
       pace: "values(floor(2 * x), 0, 3)"
     actions: {go: {x: 1}, turn_left: {x: 2}, turn_right: {x: 3}}
 """

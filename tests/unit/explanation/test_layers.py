@@ -125,6 +125,21 @@ def test_the_hand_made_controller_is_the_five_rules_that_act():
     assert not explanation.useless
 
 
+LINKED = """
+  lower: {inputs: {tilt: "cut(x, 1, 2)", upright: x < 1}, actions: {a: {x: 1}, b: {x: 2}}}
+"""
+
+
+def test_cells_that_cannot_occur_make_no_rule():
+    explanation = explained(LINKED, [[1, 2, 1, 2, 1, 1]], [0])
+    lower = explanation.layers[0]
+    assert (explanation.joint_size, explanation.possible_cells) == (6, 3)
+    assert (lower.kinds.count, lower.kinds.impossible) == (3, 3)
+    assert [(rule.decision, rule.where) for rule in lower.rules] == [("b", "tilt is below 1"), ("a", "")]
+    assert lower.table == ("", "b", "a", "", "a", "")
+    assert lower.cells == 3
+
+
 def visits(asked, controlled, robot_steps=100):
     arrays = ([np.array(each) for each in counts] for counts in (asked, controlled))
     return Visits(10, robot_steps, *map(tuple, arrays))
@@ -187,6 +202,7 @@ def test_the_joint_cells_are_shared_out(name, seed):
     architecture = random_architecture(meaning, seed)
     explanation, space = explain_architecture(meaning, architecture), joint_space(meaning)
     control = policy(space, architecture)
+    assert explanation.possible_cells == space.joint_size
     assert sum(layer.cells for layer in explanation.layers) + explanation.nobody_cells == space.joint_size
     assert explanation.nobody_cells == np.count_nonzero(control == 0)
     assert bool(explanation.nobody) == (0 in control)
