@@ -5,6 +5,8 @@ import shutil
 import signal
 import time
 from pathlib import Path
+from socket import socket
+from urllib.request import urlopen
 
 import pytest
 
@@ -68,3 +70,33 @@ def test_another_folder_is_refused(tmp_path):
     assert (code, out) == (2, "")
     assert "is no folder of a run" in err
     assert bbsd("watch", tmp_path / "none")[0] == 2
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+def test_the_page_of_a_run_is_served_until_ctrl_c(tmp_path):
+    folder = tmp_path / "run"
+    bbsd("design", SPEC, "--out", folder)
+    before = content_of(folder)
+    with process("watch", folder, "--serve") as watching:
+        address = watching.stderr.readline().split()[0]
+        said = [watching.stderr.readline() for _ in range(2)]
+        with urlopen(address) as response:
+            page = response.read().decode()
+        watching.send_signal(signal.SIGINT)
+        watching.communicate(timeout=30)
+    assert said[1] == "the page is there\n"
+    assert watching.returncode == 130
+    assert address.startswith("http://127.0.0.1:")
+    assert "data-watched" not in page
+    assert "<!DOCTYPE html>" in page or "<!doctype html>" in page
+    assert content_of(folder) == before
+
+
+def test_a_port_that_is_taken_is_a_mistake_of_the_user(tmp_path):
+    with socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        code, _, err = bbsd("watch", tmp_path, "--serve", "--port", taken.getsockname()[1])
+    assert code == 2
+    assert "in use" in err

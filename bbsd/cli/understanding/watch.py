@@ -1,18 +1,21 @@
 """`bbsd watch`."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
+from threading import Event
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from bbsd.cli.options import spec_files
-from bbsd.cli.output import has_blocks, output_console, show
+from bbsd.cli.output import has_blocks, output_console, say, show
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from rich.live import Live
+
+    from bbsd.runs.storage.watching import Watched
 
 INTERRUPTED = 130
 
@@ -33,6 +36,18 @@ def watch(
             metavar="DIR", help="Also write the metrics as event files of TensorBoard.", show_default=False
         ),
     ] = None,
+    serve: Annotated[
+        bool,
+        typer.Option(
+            "--serve",
+            help="Serve a page on the run to browsers on this machine, until Ctrl-C; at its end, "
+            "the page of bbsd report.",
+        ),
+    ] = False,
+    port: Annotated[
+        int,
+        typer.Option(metavar="N", min=0, max=65535, help="Port of the page.", show_default="any free one"),
+    ] = 0,
 ) -> None:
     """Show how far a run is, until it ends.
 
@@ -44,18 +59,23 @@ def watch(
     from bbsd.report.watching.words import change_lines, watched_view
 
     events = None if tensorboard is None else EventFiles(tensorboard)
-    generations, before = 0, None
+    generations, before, page = 0, None, _Page(run)
     try:
-        with _display() as display:
-            for now in watching.watch(run):
-                generations = generations or watching.generations(run)
-                if display is None:
-                    show("\n".join(change_lines(before, now, generations)))
-                else:
-                    display.update(watched_view(now, generations, blocks=has_blocks()), refresh=True)
-                if events is not None:
-                    events.update(now)
-                before = now
+        with _served(page, port) if serve else nullcontext():
+            with _display() as display:
+                for now in watching.watch(run):
+                    generations = generations or watching.generations(run)
+                    page.update(now, generations)
+                    if display is None:
+                        show("\n".join(change_lines(before, now, generations)))
+                    else:
+                        display.update(watched_view(now, generations, blocks=has_blocks()), refresh=True)
+                    if events is not None:
+                        events.update(now)
+                    before = now
+            if serve:
+                page.finish()
+                Event().wait()
     except KeyboardInterrupt:
         raise typer.Exit(INTERRUPTED) from None
 
@@ -71,3 +91,44 @@ def _display() -> "Iterator[Live | None]":
 
     with Live(console=console, auto_refresh=False) as display:
         yield display
+
+
+class _Page:
+    """The page that is served: how far the run is, and at its end the whole design."""
+
+    def __init__(self, run: Path) -> None:
+        self._run = run
+        self._watched: Watched | None = None
+        self._generations = 0
+        self._whole = ""
+
+    def update(self, now: "Watched", generations: int) -> None:
+        """Show how far the run is."""
+        self._watched, self._generations = now, generations
+
+    def finish(self) -> None:
+        """Show the design, where the run has one."""
+        if self._watched is None or self._watched.state != "done":
+            return
+        import bbsd
+        from bbsd.report.page import page_text
+
+        say("the run is done; its page is being made")
+        self._whole = page_text(bbsd.page(self._run))
+        say("the page is there")
+
+    def text(self) -> str:
+        """Return the page as it is now."""
+        from bbsd.report.watching.live_page import live_page
+        from bbsd.runs.storage.watching import look
+
+        return self._whole or live_page(self._watched or look(self._run), self._generations)
+
+
+@contextmanager
+def _served(page: _Page, port: int) -> "Iterator[None]":
+    from bbsd.report.watching.server import serving
+
+    with serving(page.text, port) as address:
+        say(f"{address} shows the run to browsers on this machine; Ctrl-C ends it")
+        yield

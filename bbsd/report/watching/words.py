@@ -30,7 +30,7 @@ def change_lines(before: Watched | None, now: Watched, generations: int = 0) -> 
     for run in now.runs:
         first = min(known.get((run.rival, run.run), len(run.lines) - 1), len(run.lines))
         for line in run.lines[first:]:
-            yield f"{_who(run, now)}{_position(line, now, generations)}: {_fitness(line)}"
+            yield f"{who_text(run, now)}{position_text(line, now, generations)}: {fitness_text(line)}"
     if before is None or before.state != now.state:
         yield state_line(now)
 
@@ -57,24 +57,26 @@ def watched_view(now: Watched, generations: int = 0, *, blocks: bool = True) -> 
     parts = [Text(state_line(now))]
     for run in now.runs:
         line = run.lines[-1]
-        drawn = bar(_share(line, now, generations), BAR_WIDTH, blocks=blocks).ljust(BAR_WIDTH)
+        drawn = bar(share_done(line, now, generations), BAR_WIDTH, blocks=blocks).ljust(BAR_WIDTH)
         means = [float(each["mean"]) for each in run.lines]
         curve = sparkline(means, CURVE_WIDTH) if blocks else ""
-        head, fitness = Text(_who(run, now).removesuffix(", ")), Text(f"  {_fitness(line)}  ")
+        head, fitness = Text(who_text(run, now).removesuffix(", ")), Text(f"  {fitness_text(line)}  ")
         head.append(f"{'  ' if head.plain else ''}{drawn}", "cyan")
-        head.append(f"  {_position(line, now, generations)}")
+        head.append(f"  {position_text(line, now, generations)}")
         fitness.append(curve, "cyan")
         structure = Text(f"  {escape(' '.join(map(str, line['structure'])))}", "dim")
         parts += [head, fitness, structure]
     return Group(*parts)
 
 
-def _who(run: WatchedRun, now: Watched) -> str:
+def who_text(run: WatchedRun, now: Watched) -> str:
+    """Return which run it is, with a comma behind; '' where there is only one."""
     rival = f"rival {escape(run.rival)}, " if run.rival else ""
     return f"{rival}run {run.run}/{now.n_runs}, " if now.n_runs > 1 else rival
 
 
-def _position(line: Line, now: Watched, generations: int) -> str:
+def position_text(line: Line, now: Watched, generations: int) -> str:
+    """Return the generation or the episodes of a line of metrics."""
     if "generation" in line:
         of = f"/{generations}" if generations >= line["generation"] else ""
         return f"generation {line['generation']}{of}"
@@ -82,7 +84,7 @@ def _position(line: Line, now: Watched, generations: int) -> str:
     return f"{episodes:,} of {now.budget:,} episodes" if now.budget else count(episodes, "episode")
 
 
-def _share(line: Line, now: Watched, generations: int) -> float:
+def share_done(line: Line, now: Watched, generations: int) -> float:
     """Return which part of a run is done; an answer is all of it."""
     if line.get("stage") == "answer":
         return 1.0
@@ -91,7 +93,7 @@ def _share(line: Line, now: Watched, generations: int) -> float:
     return float(line.get("episodes", 0)) / now.budget if now.budget else 0.0
 
 
-def _fitness(line: Line) -> str:
+def fitness_text(line: Line) -> str:
     """Return the fitness of a generation's agents, or the best so far in new episodes."""
     if "generation" in line:
         keys = [key for key in ("mean", "best", "lifetime") if isinstance(line.get(key), int | float)]
