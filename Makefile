@@ -51,7 +51,9 @@ methods: $(VENV)/.demo
 fuzz: $(VENV)/.demo
 	$(BIN)/python -m fuzzing --seconds $(or $(SECONDS),60)
 
-# The pictures of episodes in README.md and docs/cookbook.md.
+# The pictures of episodes in README.md and docs/cookbook.md, and of a page where there is a browser.
+QUIETLY := --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \
+  --disable-component-update --disable-sync --hide-scrollbars
 figures: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --quiet --plot --out .cache/figures
 	$(BIN)/bbsd evaluate .cache/figures/architecture.yaml --plot docs/images/lifting.png
@@ -60,6 +62,11 @@ figures: $(VENV)/.demo
 	for world in mobile_robot grid_world; do \
 	  $(BIN)/bbsd evaluate specs/$${world}_hand.yaml --plot docs/images/$$world.png || exit 1; \
 	done
+
+	$(BIN)/bbsd report specs/pursuit_hand.yaml -o .cache/page.html
+	-chromium $(QUIETLY) --window-size=1280,1330 --screenshot=docs/images/page.png \
+	  "file://$(CURDIR)/.cache/page.html#episode=worst&robot=1&step=112" && \
+	  $(BIN)/python -c "from PIL import Image; p = 'docs/images/page.png'; Image.open(p).convert('P', palette=1, colors=64).save(p, optimize=True)"
 
 # How fast it is: benchmarks/, all of it or one PART.
 bench: $(VENV)/.demo $(PEERS)/.bench

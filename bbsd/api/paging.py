@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bbsd.api.appraising import faults as degradations
 from bbsd.api.appraising import worth
 from bbsd.api.comparing import compare
 from bbsd.api.compiling import located_reward_errors
@@ -19,6 +20,7 @@ from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import agents_of, chosen_episode, detailed_outcomes, evaluation, trace
 from bbsd.evaluation.choosing import RANKS
+from bbsd.evaluation.faults import ALL, read_faults
 from bbsd.evaluation.situations import TooLongToWatch
 from bbsd.evaluation.streams import episode_key, evaluation_keys
 from bbsd.runs.storage.folder import Folder
@@ -33,11 +35,12 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation, Interval, Rank, Trace
     from bbsd.explanation import Explanation
     from bbsd.explanation.comparison import Comparison
+    from bbsd.explanation.faults import Degradations
     from bbsd.explanation.worth import Worth
     from bbsd.language.loading import Loaded
 
-WORTH_EPISODES = 200
-"""Episodes at most of the worth of a design: there are dozens of changes, each of which runs them all."""
+FEWER_EPISODES = 200
+"""Episodes at most of the worth of a design and of its faults: dozens of changes run them all."""
 RANDOM_AGENTS = 200
 """Random agents beside the design of a run."""
 
@@ -83,12 +86,16 @@ class Page:
     """The run that the design is from, None where it is a file."""
     worth: Worth | None
     """What each part is worth, None where an episode has too many steps to record who is excited."""
+    faults: Degradations
+    """What it earns with each behavior silent, and under the faults that were asked for."""
     comparison: Comparison | None
     """What another design does and earns beside this one, None where none was given."""
     other: str
     """The name of the other design's file or folder, '' without one."""
     seed: int
     overrides: tuple[str, ...]
+    wanted_faults: tuple[str, ...]
+    """The faults that were asked for, as they are written."""
 
 
 def page(
@@ -97,6 +104,7 @@ def page(
     *,
     seed: int = 0,
     episodes: int = EPISODES_OF_DESIGN,
+    faults: Sequence[str] = (),
     overrides: Sequence[str] = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Page:
@@ -107,15 +115,19 @@ def page(
         other: Another design to compare it with.
         seed: Seed of the episodes, and of the draws in constants.
         episodes: Number of episodes of the evaluation, as in `evaluate`.
+        faults: Texts such as "robot=1:dead", as in `bbsd.faults`; every behavior silent is always shown.
         overrides: Values that replace those of the spec.
         progress: Called from time to time with the numbers of finished and of all episodes.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
+        NoSuchFault: a fault is not understood, or of something that the spec does not have.
         NoDesign: a folder that is no run, or a run without an answer.
     """
     loaded = load(design, seed=seed, overrides=overrides)
+    wanted = [ALL, *faults]
+    read_faults(wanted, loaded.meaning)
     problem = compile_meaning(loaded.meaning)
     architecture = given_architecture(problem)
     returns: list[NDArray[np.float64]] = []
@@ -131,7 +143,7 @@ def page(
     with located_reward_errors(loaded):
         outcomes = detailed_outcomes(problem, agents_of([architecture]), streams, generation)
         measured = evaluation(problem, reported(outcomes), 1)
-    earned = np.concatenate(returns)
+    earned, few = np.concatenate(returns), min(max(2, episodes), FEWER_EPISODES)
     return Page(
         name=_name(design),
         loaded=loaded,
@@ -141,13 +153,15 @@ def page(
         returns=earned,
         replays=_replays(problem, architecture, earned, seed, generation),
         run=_run(design, seed),
-        worth=_worth(loaded, seed, min(max(2, episodes), WORTH_EPISODES)),
+        worth=_worth(loaded, seed, few),
+        faults=degradations(loaded, wanted, seed=seed, episodes=few),
         comparison=None
         if other is None
         else compare(loaded, other, episodes=max(2, episodes), seed=seed, overrides=overrides),
         other="" if other is None else _name(other),
         seed=seed,
         overrides=tuple(overrides),
+        wanted_faults=tuple(faults),
     )
 
 

@@ -160,6 +160,7 @@ def test_a_run_shows_how_it_was_found_what_was_designed_and_what_its_parts_are_w
         "What it does, and why",
         "What it earns",
         "What each part is worth",
+        "When something fails",
         "Beside object_lifting_hand.yaml",
         "How it was found",
         "The spec",

@@ -27,6 +27,15 @@ def report(
         Path, typer.Option("--output", "-o", metavar="PAGE.html", help="The file of the page.")
     ] = Path("page.html"),
     episodes: Annotated[int, typer.Option(metavar="N", min=1, help="Number of episodes.")] = 1000,
+    faults: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--fault",
+            metavar="FAULT",
+            help="Evaluate under a fault too, such as robot=1:dead; may be repeated.",
+            show_default=False,
+        ),
+    ] = None,
     seed: Seed = 0,
     overrides: Overrides = None,
 ) -> None:
@@ -39,7 +48,13 @@ def report(
 
     with episode_listener(error_console()) as listener:
         page = bbsd.page(
-            design, other, seed=seed, episodes=episodes, overrides=overrides or (), progress=listener
+            design,
+            other,
+            seed=seed,
+            episodes=episodes,
+            faults=faults or (),
+            overrides=overrides or (),
+            progress=listener,
         )
     from bbsd.report.page import page_text
 

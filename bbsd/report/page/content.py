@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
 from bbsd.report.comparison import comparison_plain
+from bbsd.report.faults import faults_plain
 from bbsd.report.page.behaviors import behaviors_plain, commands_plain, inputs_plain
 from bbsd.report.page.episodes import episode_plain
 from bbsd.report.page.origin import repeat_plain, spec_plain
@@ -47,6 +48,7 @@ def page_plain(page: Page, most_steps: int) -> dict[str, Plain]:
         "episodes": [episode_plain(replay, page.loaded.meaning, most_steps) for replay in page.replays],
         "notes": _notes(page, most_steps),
         "worth": None if page.worth is None else worth_plain(page.worth),
+        "faults": faults_plain(page.faults),
         "comparison": _comparison_plain(page),
         "curves": curves_plain(page.run.metrics) if page.run else None,
         "spec": spec_plain(page),

@@ -88,6 +88,7 @@ def _report_command(page: Page) -> str:
         str(page.seed),
     ]
     words += ["--episodes", str(page.evaluation.episodes)]
+    words += [word for text in page.wanted_faults for word in ("--fault", text)]
     return shlex.join([*words, *(word for override in page.overrides for word in ("--set", override))])
 
 

@@ -33,7 +33,7 @@ function layerCard(behavior, layer) {
   else card.append(element("p", {}, `its rules would be too long to read: a table of ${counted(about.n_cells, "cell")}`));
   for (const remark of about.remarks) card.append(element("p", { class: "note" }, remark));
   const dropped = DATA.worth?.behaviors.find((each) => each.behavior === about.name)?.dropped;
-  if (dropped) card.append(element("p", { class: "note" }, `return without it: ${change(dropped)} (95 % interval ${between(dropped)})`));
+  if (dropped) card.append(element("p", { class: "note" }, `without it: ${change(dropped)} (${between(dropped)})`));
   if (about.expects) card.append(element("p", { class: "note" }, "expects afterwards: ", element("code", {}, about.expects)));
   if (about.inputs.length && about.is_listed) card.append(live(`Decision table of ${about.name}`, () => decisionTable(behavior)));
   const item = element("li", { "data-layer": layer, "data-behavior": about.name }, card);

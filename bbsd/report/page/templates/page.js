@@ -36,7 +36,7 @@ function replaySection() {
     element("summary", {}, from ? "Further values over the steps" : "Values over the steps"), valueCharts(from, MOST_CHARTS))] : [];
   return section("replay", "What it does, and why", controls, bands(slider), element("p", { class: "note" },
     "Point at a band, click it, or use the arrow keys: the layers show why that step went as it did. ",
-    `${SIGNS.controls} controls, ${SIGNS.suppressed} suppressed by a higher layer, ${SIGNS.leaves} no action, ${SIGNS.calm} not excited.`),
+    DATA.worth ? "Without it: the change of the return, with its 95 % interval. " : "", `${SIGNS.controls} controls, ${SIGNS.suppressed} suppressed by a higher layer, ${SIGNS.leaves} no action, ${SIGNS.calm} not excited.`),
     element("div", { class: "bench" }, left, right), ...curves, ...tables, ...notes);
 }
 
