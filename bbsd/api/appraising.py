@@ -29,6 +29,7 @@ def worth(
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
     overrides: Sequence[str] = (),
+    progress: Callable[[int, int], None] | None = None,
 ) -> Worth:
     """Say what the behaviors, layers and rules of a design are worth, and what stands out.
 
@@ -41,6 +42,7 @@ def worth(
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Threads to use; affects only the speed.
         overrides: Values that replace those of the spec.
+        progress: Called with the numbers of parts done and of all.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -55,7 +57,7 @@ def worth(
     generation = loaded.spec.design.coevolution.generations
     design = given_architecture(problem)
     with located_reward_errors(loaded):
-        return Appraisal(problem, design, evaluation_key(seed), episodes, generation).worth()
+        return Appraisal(problem, design, evaluation_key(seed), episodes, generation).worth(progress)
 
 
 def faults(

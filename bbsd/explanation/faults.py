@@ -131,18 +131,21 @@ class Disturbed:
         return interval(values) if n_designs == 1 else interval(row_means(values.reshape(n_designs, -1)))
 
     def learned(self, episodes: int) -> Structure:
-        """Return the best order around the fault: of all, or if they are many by exchanging layers while it helps."""
+        """Return the best order around the fault, or the given one where none is clearly better.
+
+        Of few layers all orders are tried, of many two are exchanged as long as it helps.
+        """
         best, stream = self.architecture.structure, fold(self.key, ORDERS)
         for climbed in range(len(best)):
             orders, whole = tried_orders(best)
             keys = keys_of(fold(stream, word_of(climbed)), 0, episodes)
             returns = self.returns(orders, keys)
             most = max(range(len(orders)), key=lambda order: mean(returns[order]))
-            if whole:
-                return orders[most]
             if not clearly_above(self.interval(returns[most] - returns[0])):
                 break
             best = orders[most]
+            if whole:
+                break
         return best
 
 

@@ -27,7 +27,7 @@ from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.solver.paper.genetics import random_pool
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 ORDERS, TABLES = name_word("worth of orders"), name_word("worth of random tables")
 RANDOM_TABLES = 25
 """Random tables that replace each behavior's; each has its part of the episodes."""
-SEEN = 500
+SEEN = 1000
 """Episodes at most in which it is watched who is excited."""
 
 
@@ -213,27 +213,41 @@ class Appraisal:
             return None
         return float(self.earned.met[expecting.index(name)]) / control
 
-    def worth(self) -> Worth:
-        """Return the worth of all parts of the design.
+    def worth(self, progress: Callable[[int, int], None] | None = None) -> Worth:
+        """Return the worth of all parts of the design; `progress` is called with the parts done and all.
 
         Raises:
             RewardNotFinite: a reward of the design or of a variant was infinite or not a number.
             TooLongToWatch: an episode has too many steps to record who is excited.
         """
+        total = len(self.layers) + 5
+
+        def done(parts: int) -> None:
+            if progress is not None:
+                progress(parts, total)
+
         returns = interval(self.paired.returns[0])
-        behaviors = tuple(self.behavior(layer) for layer in reversed(range(len(self.layers))))
+        done(1)
+        steps = self.earned.steps
+        done(2)
+        behaviors = []
+        for layer in reversed(range(len(self.layers))):
+            behaviors.append(self.behavior(layer))
+            done(2 + len(behaviors))
         alike = robots_alike(self.problem, self.architecture, self.keys, self.generation)
+        done(total - 2)
         choosing = keys_of(fold(self.key, ORDERS), 0, self.episodes)
         orders, precedence = compare_orders(
             self.problem, self.architecture, choosing, self.keys, self.generation
         )
+        done(total - 1)
         names = self.problem.names
-        return Worth(
+        worth = Worth(
             name=self.problem.meaning.spec.name,
             returns=returns,
             robots=self.problem.meaning.spec.environment.robots,
-            steps=self.earned.steps,
-            behaviors=behaviors,
+            steps=steps,
+            behaviors=tuple(behaviors),
             nobody=self.earned_by(-1),
             nobody_control=self._control(-1),
             random_tables=self.random_tables,
@@ -241,6 +255,8 @@ class Appraisal:
             orders=orders,
             precedence=precedence,
             alike=alike,
-            findings=findings_of(behaviors, orders, alike, returns, self.earned.steps),
+            findings=findings_of(behaviors, orders, alike, returns, steps),
             left_out=tuple(name for index, name in enumerate(names) if index not in self.layers),
         )
+        done(total)
+        return worth

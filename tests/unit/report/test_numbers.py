@@ -4,7 +4,8 @@ from math import inf, nan
 
 import pytest
 
-from bbsd.report.numbers import column, count, duration, number, percent
+from bbsd.evaluation import Interval
+from bbsd.report.numbers import changes, column, count, duration, number, percent, with_halves
 
 
 @pytest.mark.parametrize(
@@ -45,3 +46,14 @@ def test_shares_times_and_counts_read_as_people_say_them():
     assert (percent(0.1234), percent(nan)) == ("12.3 %", "unknown")
     assert [duration(s) for s in (8.14, 185.0, 7800.0)] == ["8.1 s", "3 min 5 s", "2 h 10 min"]
     assert [count(n, "agent") for n in (0, 1, 20000)] == ["0 agents", "1 agent", "20,000 agents"]
+
+
+def test_differences_have_a_sign_where_they_are_not_zero():
+    assert changes([12.5, -3.0, 0.0, -1e-9]) == ["+12.500", "-3.000", "0.000", "0.000"]
+
+
+def test_means_have_half_their_intervals_behind_them():
+    intervals = [Interval(-549.08, 1.0, -550.2, -547.96, 9), Interval(2.5, 1.0, -8.0, 13.0, 9)]
+    assert with_halves(intervals) == ["-549.08 ±1.12 ", "+2.50 ±10.50"]
+    assert with_halves(intervals, signed=False)[1] == "2.50 ±10.50"
+    assert with_halves([]) == []

@@ -101,6 +101,9 @@ def test_behaviors_that_no_layer_has_are_listed(worth, appraisal):
     assert set(worth.left_out) == {*appraisal.problem.names} - used
 
 
-def test_the_same_seed_gives_the_same_worth(worth, appraisal):
-    again = Appraisal(appraisal.problem, appraisal.architecture, appraisal.key, EPISODES, 1).worth()
-    assert again == worth
+def test_the_same_seed_gives_the_same_worth_and_progress_is_told(worth, appraisal):
+    told = []
+    again = Appraisal(appraisal.problem, appraisal.architecture, appraisal.key, EPISODES, 1)
+    assert again.worth(lambda *parts: told.append(parts)) == worth
+    total = len(appraisal.layers) + 5
+    assert told == [(part, total) for part in range(1, total + 1)]
