@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,7 +31,7 @@ class Scene:
 
     `places` are (n_robots, n_moments, 2 or 3): x, y and perhaps a radius; `headings` (n_robots, n_moments) in radians;
     `area` two corners (4,); `circles` (n_circles, 3); `grid` (n_rows, n_columns), not 0 where a wall is;
-    `marks` (n_moments, 2 or 3) by name.
+    `marks` (n_moments, 2 or 3) and `paths` (n_points, 2) by name.
     """
 
     places: Floats
@@ -40,6 +40,7 @@ class Scene:
     circles: Floats
     grid: Floats | None
     marks: dict[str, Floats]
+    paths: dict[str, Floats] = field(default_factory=dict)
 
 
 def scene(picture: Picture, moments: Sequence[Stored], constants: Sequence[float]) -> Scene:
@@ -60,6 +61,7 @@ def scene(picture: Picture, moments: Sequence[Stored], constants: Sequence[float
         circles=at_the_end(picture.circles, 3),
         grid=None if picture.grid is None else at_the_end(picture.grid, len(picture.grid[0])),
         marks={name: over_time(place) for name, place in picture.marks.items()},
+        paths={name: at_the_end(path, 2) for name, path in picture.paths.items()},
     )
 
 

@@ -24,6 +24,9 @@ class View(Part):
     grid: TableText | None = Field(
         None, description="Walls as a table, the top row first; what is not 0 stands at `[column, row]`."
     )
+    paths: Entries[NameText, TableText] = Field(
+        {}, description="Lines by name, such as a track or a wall: the rows `[x, y]` of their points."
+    )
     marks: Entries[NameText, TableText] = Field(
         {}, description="Other places, by name; a radius is drawn as a ring, and what moves leaves a trail."
     )

@@ -29,7 +29,7 @@ PLACE = "a place, [x, y] or [x, y, radius]"
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """Places and headings robot by robot, marks by name; area, circles and grid once for all."""
+    """Places and headings robot by robot, marks and paths by name; area, circles, grid and paths once for all."""
 
     places: tuple[Row, ...]
     headings: tuple[Node, ...] | None
@@ -37,6 +37,7 @@ class Picture:
     circles: tuple[Row, ...]
     grid: tuple[Row, ...] | None
     marks: Mapping[str, Row]
+    paths: Mapping[str, tuple[Row, ...]]
 
 
 def elaborate_picture(view: View, moment: Moment) -> Picture:
@@ -53,6 +54,7 @@ def elaborate_picture(view: View, moment: Moment) -> Picture:
         circles=() if view.circles is None else _circles(_read(view.circles, team, "circles")),
         grid=None if view.grid is None else _grid(_read(view.grid, team, "grid")),
         marks={name: _place(_read(place, team, "marks", name)) for name, place in view.marks.items()},
+        paths={name: _path(_read(path, team, "paths", name)) for name, path in view.paths.items()},
     )
 
 
@@ -118,6 +120,10 @@ def _place(read: _Read) -> Row:
 
 def _circles(read: _Read) -> tuple[Row, ...]:
     return tuple(circle.row((3,), "[x, y, radius]") for circle in read.rows())
+
+
+def _path(read: _Read) -> tuple[Row, ...]:
+    return tuple(point.row((2,), "a point of a line, [x, y]") for point in read.rows(2))
 
 
 def _area(read: _Read) -> Row | None:

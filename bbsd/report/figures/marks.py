@@ -10,6 +10,8 @@ import numpy as np
 from bbsd.report.figures.plane import FAINT, INK, OVER_PATHS, PAPER, draw_circle, drawable, halo
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
@@ -40,6 +42,13 @@ def draw_mark(panel: Axes, name: str, track: Floats, occupied: Floats, limits: L
         panel.plot(*last[:2], marker="D", ms=10, mfc=FILL, mec=INK, zorder=OVER_PATHS)
         draw_circle(panel, last, fill=False, ec=FAINT, lw=0.9, ls=(0, (2, 2)))
         _write(panel, name, last[:2], occupied, limits)
+
+
+def draw_names(panel: Axes, paths: Mapping[str, Floats], occupied: Floats, limits: Limits) -> None:
+    """Write the names of lines beside their first points that can be drawn."""
+    for name, path in paths.items():
+        if len(points := drawable(path)):
+            _write(panel, name, points[0], occupied, limits)
 
 
 def _moved(points: Floats) -> npt.NDArray[np.bool_]:

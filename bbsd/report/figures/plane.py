@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 INK, FAINT, SOLID, PAPER = "#333333", "#777777", "#c4c4c4", "#ffffff"
 MARGIN = 0.03
 """The margin around everything, as a share of the larger side."""
+LINE_WIDTH = 2.0
+"""Of the view's own lines, in points."""
 OVER_PATHS = 4
 """The drawing order (zorder) of what no path may cover."""
 
@@ -47,7 +49,7 @@ def limits_of(scene: Scene) -> Limits:
     """Return the limits that show everything: the surroundings, and all places of robots and marks."""
     corners = _corners(scene)
     around = [scene.circles[:, :2] + side * scene.circles[:, 2:] for side in (-1, 1)]
-    points = drawable(np.concatenate([corners, *around, *_tracks(scene)]))
+    points = drawable(np.concatenate([corners, *around, *scene.paths.values(), *_tracks(scene)]))
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
     margin = MARGIN * float(max(high - low)) or 1.0
     axes = [(float(a) - margin, float(b) + margin) for a, b in zip(low, high, strict=True)]
@@ -57,8 +59,8 @@ def limits_of(scene: Scene) -> Limits:
 
 
 def occupied(scene: Scene) -> Floats:
-    """Return all places of robots and marks, and the centers of circles (n, 2)."""
-    return drawable(np.concatenate([*_tracks(scene), scene.circles[:, :2]]))
+    """Return all places of robots and marks, the centers of circles, and the points of lines (n, 2)."""
+    return drawable(np.concatenate([*_tracks(scene), scene.circles[:, :2], *scene.paths.values()]))
 
 
 def drawable(points: Floats) -> Floats:
@@ -67,7 +69,7 @@ def drawable(points: Floats) -> Floats:
 
 
 def draw_surroundings(panel: Axes, scene: Scene) -> None:
-    """Draw the outer walls, the grid and the circles."""
+    """Draw the outer walls, the grid, the circles and the lines."""
     from matplotlib.patches import Rectangle
 
     corners = _corners(scene)
@@ -77,6 +79,8 @@ def draw_surroundings(panel: Axes, scene: Scene) -> None:
         panel.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, fc=SOLID, ec=SOLID, lw=0.5))
     for circle in scene.circles:
         draw_circle(panel, circle, fc=SOLID, ec=FAINT, lw=0.8)
+    for path in scene.paths.values():
+        panel.plot(*path.T, color=FAINT, lw=LINE_WIDTH, solid_joinstyle="round", zorder=1.2)
 
 
 def draw_circle(panel: Axes, place: Floats, **style: Any) -> None:  # noqa: ANN401 - as matplotlib types styles

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.tree import Name
 from bbsd.language.field_types import expressions_in
 from bbsd.report.figures.files import color, figure_in_file, legend, stack_panels
-from bbsd.report.figures.marks import draw_mark
+from bbsd.report.figures.marks import draw_mark, draw_names
 from bbsd.report.figures.panels import MAX_PANELS, NOBODY, behavior_rows, draw_control, draw_lines, panels_of
 from bbsd.report.figures.paths import draw_ends, draw_path, legend_of
 from bbsd.report.figures.plane import draw_surroundings, limits_of, occupied
@@ -84,6 +84,7 @@ def draw_scene(panel: Axes, trace: Trace, scene: Scene, colors: Mapping[str, str
         draw_path(panel, places, controlling, colors, limits)
     for name, track in scene.marks.items():
         draw_mark(panel, name, track, occupied(scene), limits)
+    draw_names(panel, scene.paths, occupied(scene), limits)
     for robot in range(trace.robots):
         draw_ends(panel, scene, robot, limits)
     in_control = {name for robot in trace.controlling for name in robot}

@@ -78,6 +78,7 @@ def _scene_plain(scene: Scene, moments: int) -> dict[str, Plain]:
         "headings": None if scene.headings is None else _rows(scene.headings[:, :moments]),
         "area": None if scene.area is None else [shortened(value) for value in scene.area.tolist()],
         "circles": _rows(scene.circles),
+        "lines": [_rows(path) for path in scene.paths.values()],
         "walls": [] if scene.grid is None else np.argwhere(scene.grid != 0)[:, ::-1].tolist(),
         "marks": [{"name": name, "track": _rows(track[:moments])} for name, track in scene.marks.items()],
     }

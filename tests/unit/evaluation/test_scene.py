@@ -28,6 +28,7 @@ view:
   heading: step / 10 + robot
   circles: rocks
   grid: [[0, 1], [w, 0]]
+  paths: {track: [[0, 0], [w, size]]}
   marks: {lamp: [seen, step]}
 behaviors:
   go:
@@ -60,6 +61,7 @@ def test_what_is_there_once_is_as_at_the_end():
     found = seen(WALK)
     assert found.circles.tolist() == [[1, 2, 0.5], [3, 4, 6]]
     assert found.grid.tolist() == [[0, 1], [3, 0]]
+    assert found.paths["track"].tolist() == [[0, 0], [3, 6]]
     assert found.area is None
 
 

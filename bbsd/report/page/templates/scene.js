@@ -65,6 +65,9 @@ function drawSurroundings(pen, scene, plane) {
     circle(pen, plane.x(x), plane.y(y), radius * plane.scale);
     pen.fill();
   }
+  pen.strokeStyle = theme("faint");
+  pen.lineWidth = 2;
+  for (const line of scene.lines) trace(pen, line, 0, line.length - 1, plane);
   if (scene.area) {
     const [left, bottom, right, top] = scene.area;
     pen.strokeStyle = theme("ink");

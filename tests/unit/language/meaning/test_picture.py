@@ -14,7 +14,7 @@ from tests.unit.language.specs import codes, meaning_of, messages
 SPECS = Path(__file__).parents[4] / "specs"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
 FULL = """
-constants: {rocks: [[1, 2, 0.5], [3, 4, 1]], maze: [[1, 0, 1]]}
+constants: {rocks: [[1, 2, 0.5], [3, 4, 1]], maze: [[1, 0, 1]], rocky: [[1, 2], [3, 4], [5, 6]]}
 environment:
   world: {sun: 3}
   definitions: {middle: "mean(height[r] for r in team)", place: "list(robot, height)"}
@@ -24,6 +24,7 @@ view:
   area: [0, 0, robots, 3]
   circles: rocks
   grid: maze
+  paths: {lane: rocky, wall: [[0, 0], [sun, 1]]}
   marks: {sun: [sun, 9, 0.5], middle: [1, middle]}
 """
 
@@ -59,6 +60,10 @@ def test_a_picture_has_the_shapes_of_its_lists() -> None:
     assert found.grid is not None
     assert [len(found.area), *map(len, found.circles), *map(len, found.grid)] == [4, 3, 3, 3]
     assert [len(place) for place in found.marks.values()] == [3, 2]
+    assert {name: [*map(len, path)] for name, path in found.paths.items()} == {
+        "lane": [2, 2, 2],
+        "wall": [2, 2],
+    }
 
 
 @pytest.mark.parametrize("world", WORLDS)
@@ -84,6 +89,9 @@ def test_a_view_changes_no_byte_of_a_kernel(world: str) -> None:
         ("{at: [robot, height], area: [0, 0, height, 1]}", "BB059"),
         ("{at: [robot, height], circles: 3}", "BB049"),
         ("{at: [robot, height], grid: []}", "BB049"),
+        ("{at: [robot, height], paths: {track: [[1, 2]]}}", "BB049"),
+        ("{at: [robot, height], paths: {track: [[1, 2], [3]]}}", "BB049"),
+        ("{at: [robot, height], paths: {track: [[1, 2], [3, hieght]]}}", "BB052"),
         ("{at: [robot, height], grid: [[]]}", "BB049"),
         ("{at: [robot, height], area: [0, 1, 1, 1]}", "BB049"),
         ("{at: 'list(list(height, speed)[floor(tilt)], list(1, 2)[tilt])'}", "BB064"),
