@@ -63,7 +63,7 @@ class BehaviorWorth:
     episode's steps in which it controls, by reward term. `dropped` is the change of the return where it is held to
     No Action, which is the same as leaving its layer out; `random` where its table is replaced by random ones, the mean
     and interval over these. `expectation` is the share of its controlled steps after which its expectation held, None
-    where it expects nothing or never controls. `rules` are empty where they would be too long to read.
+    where it expects nothing or never controls. `rules` are empty where they are too many.
     """
 
     behavior: str

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 Cells = npt.NDArray[np.uint8]
 
+MOST_RULES, MOST_CELLS = 100, 5_000_000
+"""Rules of a behavior that are looked at one by one, and cells of all tables without one: more are not read."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SingleRule:
@@ -46,7 +49,7 @@ class SingleRule:
 
 
 def single_rules(module: Module, table: Cells, written: Sequence[Rule] = ()) -> list[SingleRule]:
-    """Return the rules of a behavior, first to last; none if they would be too long to read.
+    """Return the rules of a behavior, first to last; none if they are too many to look at one by one.
 
     Args:
         module: the behavior.
@@ -62,6 +65,8 @@ def single_rules(module: Module, table: Cells, written: Sequence[Rule] = ()) -> 
             return []
         boxes = [box for box, _ in found]
         decisions = np.array([*(decision for _, decision in found), default], np.uint8)
+    if len(decisions) > min(MOST_RULES, MOST_CELLS // len(table)):
+        return []
     words, matched = (NO_ACTION_TEXT, *module.actions), _matches(boxes, sizes)
     rules = []
     for index, decision in enumerate(decisions.tolist()):

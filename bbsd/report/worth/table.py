@@ -41,8 +41,7 @@ def _parts(worth: Worth) -> Iterator[RenderableType]:
     yield _activity(worth)
     yield _changes(worth)
     yield _earned(worth)
-    if any(each.rules for each in worth.behaviors):
-        yield _rules(worth)
+    yield _rules(worth)
     if worth.swaps:
         yield _swaps(worth.swaps)
         yield _orders(worth.orders, worth.precedence)
@@ -110,6 +109,8 @@ def _rules(worth: Worth) -> Table:
     texts = iter(with_halves(changes))
     for behavior, rules in shown.items():
         table.add_row(Text(escape(behavior), "bold"))
+        if not rules:
+            table.add_row(Text("  too many to look at one by one", "dim"))
         for rule in rules:
             named = Text(escape(f"  {rule_text(rule)}"), "" if rule.acts else "dim")
             table.add_row(

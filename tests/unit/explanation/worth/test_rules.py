@@ -65,3 +65,12 @@ def test_every_cell_is_decided_by_one_rule():
         assert np.sum([rule.cells for rule in rules], axis=0).tolist() == [1, 1, 1, 1]
         for rule in rules:
             assert (rule.without[~rule.cells] == table[~rule.cells]).all()
+
+
+def test_too_many_rules_are_not_looked_at(monkeypatch):
+    monkeypatch.setattr("bbsd.explanation.worth.rules.MOST_RULES", 2)
+    assert rules_of(WRITTEN) == []
+    monkeypatch.setattr("bbsd.explanation.worth.rules.MOST_RULES", 3)
+    assert len(rules_of(WRITTEN)) == 3
+    monkeypatch.setattr("bbsd.explanation.worth.rules.MOST_CELLS", 11)
+    assert rules_of(WRITTEN) == []
