@@ -19,6 +19,7 @@ FLAGS = (
 REQUIRED = "BBSD_REQUIRE_BROWSER"
 """Set by whoever knows that there is a browser: without one, tests then fail instead of being skipped."""
 DESIGNS = {"lifting": "object_lifting_hand", "pursuit": "pursuit_hand", "mobile": "mobile_robot_hand"}
+SNEAKY = "</script><script>window.ran = 1</script><img src=x onerror='window.ran = 1'><!-- {{ }} ${x} `"
 SMALL_RUN = (
     "design.method=paper", "design.coevolution.generations=4", "design.coevolution.population=6",
     "design.coevolution.agents=4", "design.learning.episodes=4",
@@ -57,14 +58,24 @@ def run_page(folder):
     return bbsd.page(designed.folder, spec("lifting"), episodes=20)
 
 
+def sneaky_page(folder):
+    """Return a page on a spec whose texts try to be markup and to run."""
+    for name in ("grid_world.yaml", "grid_world_hand.yaml"):
+        shutil.copy(ROOT / "specs" / name, folder)
+    summary, path = SNEAKY.replace("'", "''"), folder / "sneaky.yaml"
+    path.write_text(f"# {SNEAKY}\nextends: grid_world_hand.yaml\nsummary: '{summary}'\n", encoding="utf-8")
+    return bbsd.page(path, episodes=5)
+
+
 @pytest.fixture(scope="session")
 def made(tmp_path_factory):
     """Return what a page on a design shows, and the page's file, by the design's short name."""
     folder, kept = tmp_path_factory.mktemp("pages"), {}
+    special = {"run": lambda: run_page(folder), "sneaky": lambda: sneaky_page(folder)}
 
     def make(name):
         if name not in kept:
-            page = run_page(folder) if name == "run" else bbsd.page(spec(name), episodes=20)
+            page = special[name]() if name in special else bbsd.page(spec(name), episodes=20)
             path = folder / f"{name}.html"
             path.write_text(page_text(page), encoding="utf-8")
             kept[name] = page, path

@@ -198,6 +198,30 @@ def test_an_address_can_name_an_episode_a_robot_and_a_step(browser, opened):
     assert step_shown(browser) == int(browser.find_element(By.ID, "step").get_attribute("max"))
 
 
+def test_texts_of_a_spec_are_shown_and_do_nothing(browser, opened):
+    page = opened("sneaky")
+    assert browser.find_element(By.CSS_SELECTOR, ".summary").text == page.loaded.spec.summary
+    assert browser.execute_script("return [window.ran, document.images.length]") == [None, 0]
+    listed = browser.find_element(By.CSS_SELECTOR, ".listing").get_attribute("textContent")
+    assert "<script>window.ran = 1</script>" in listed
+    assert browser.get_log("browser") == []
+
+
+def test_the_command_for_a_step_is_that_of_bbsd_why(browser, opened):
+    page = opened("pursuit", place="#robot=2&step=9")
+    expected = f"bbsd why pursuit_hand.yaml --episode {page.replays[0].number} --step 9 --robot 2"
+    assert browser.find_element(By.ID, "ask").text == expected
+
+
+def test_who_wants_less_motion_gets_it(browser, opened):
+    opened("lifting")
+    smooth = "return getComputedStyle(document.documentElement).scrollBehavior"
+    assert browser.execute_script(smooth) == "smooth"
+    calm = [{"name": "prefers-reduced-motion", "value": "reduce"}]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": calm})
+    assert browser.execute_script(smooth) == "auto"
+
+
 def test_the_policy_stops_what_would_leave_or_run(browser, opened):
     opened("lifting")
     browser.execute_script("""

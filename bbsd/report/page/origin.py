@@ -70,7 +70,9 @@ def repeat_plain(page: Page) -> dict[str, Plain]:
                 for block, text in page.run.content.get("spec", {}).items()
             ),
         ]
+    asked = ["bbsd", "why", page.name, *(["--seed", str(page.seed)] if page.seed else []), *_overrides(page)]
     return {
+        "ask": escape(shlex.join(asked)),
         "commands": [escape(command) for command in commands],
         "facts": [[escape(name), escape(value)] for name, value in facts],
     }
@@ -89,7 +91,11 @@ def _report_command(page: Page) -> str:
     ]
     words += ["--episodes", str(page.evaluation.episodes)]
     words += [word for text in page.wanted_faults for word in ("--fault", text)]
-    return shlex.join([*words, *(word for override in page.overrides for word in ("--set", override))])
+    return shlex.join([*words, *_overrides(page)])
+
+
+def _overrides(page: Page) -> list[str]:
+    return [word for override in page.overrides for word in ("--set", override)]
 
 
 def _design_command(content: dict[str, object]) -> str:

@@ -26,7 +26,8 @@ function replaySection() {
   const hasScene = Boolean(DATA.episodes[0].scene);
   const picture = hasScene ? element("figure", { class: "above" }, element("figcaption", {}, "From above"), fromAbove()) : valueCharts(0, BESIDE);
   const right = element("div", { class: hasScene ? "right first" : "right" }, robotList(), picture);
-  const left = element("div", { class: "left" }, whySentence(), architecture());
+  const left = element("div", { class: "left" }, whySentence(), architecture(),
+    DATA.left_out.length ? element("p", { class: "note" }, `Not in the structure: ${DATA.left_out.join(", ")}.`) : "", whyCommand());
   const tables = [...(DATA.whole.length ? [behind("Table: the whole design, which command in which situation", wholeTable)] : []), live("Table: why, layer by layer", whyTable), live("Table: values and reinforcement of this step", valuesTable),
     live("Table: share of control in this episode", shareTable), live("Table: who controlled when", controlTable)];
   const notes = DATA.notes.map((note) => element("p", { class: "note" }, note));
@@ -59,8 +60,11 @@ function specText() {
   const list = DATA.spec.lines.map(([text, isDesigned], index) => element("li", isDesigned ? { class: "designed" } : {},
     element("code", {}, text || " "), isDesigned ? element("span", { class: "tag" }, "designed") : null));
   const designed = DATA.spec.lines.some(([, isDesigned]) => isDesigned);
-  return section("spec", "The spec", element("p", { class: "note" }, textAbout(designed)),
-    scrolling(element("ol", { class: "listing" }, ...list), "The spec's text"));
+  const listing = scrolling(element("ol", { class: "listing" }, ...list), "The spec's text");
+  const first = list.find((line) => line.classList.contains("designed"));
+  if (first) requestAnimationFrame(() => { listing.scrollTop = first.offsetTop - listing.offsetTop - 40; });
+  const cut = DATA.spec.is_cut ? " Only its beginning is shown." : "";
+  return section("spec", "The spec", element("p", { class: "note" }, textAbout(designed) + cut), listing);
 }
 
 function repeat() {

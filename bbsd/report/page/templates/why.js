@@ -89,6 +89,16 @@ function whySentence() {
   return text;
 }
 
+// The command that says it in a terminal, and what would have changed it.
+function whyCommand() {
+  const text = element("code", { id: "ask" });
+  replay.listen(() => {
+    const robot = DATA.robots > 1 ? ` --robot ${replay.robot}` : "";
+    text.textContent = `${DATA.repeat.ask} --episode ${replay.episode.number} --step ${replay.step}${robot}`;
+  });
+  return element("p", { class: "note" }, "In a terminal, also what would have changed it: ", text);
+}
+
 // Who controls each robot now; choosing one shows its decision.
 function robotList() {
   const rows = [...Array(DATA.robots).keys()].map((robot) => {
