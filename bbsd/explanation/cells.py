@@ -35,7 +35,7 @@ class Cares:
     unasked: Cells
     """It could matter, and was never asked in the episodes looked at."""
     prevented_by: tuple[int, ...]
-    """The behaviors that control where the behavior has an action in covered cells."""
+    """The behaviors that control in covered cells."""
 
     @property
     def by_tables(self) -> Cells:
@@ -110,12 +110,17 @@ def _preventing(
     controller: NDArray[np.int64] | None,
     matters: Cells,
 ) -> tuple[int, ...]:
-    """Return who controls in joint cells in which a behavior has an action that never counts."""
+    """Return who controls where a behavior has an action that never counts; where it has none, where it is excited."""
     if controller is None or behavior not in architecture.structure:
         return ()
-    acts = np.broadcast_to(decisions(space, behavior, architecture.tables[behavior]) > 0, space.sizes).ravel()
+    table = architecture.tables[behavior]
     own = np.broadcast_to(own_cells(space, behavior), space.sizes).ravel()
-    return tuple(np.unique(controller[acts & ~matters[own] & (controller >= 0)]).tolist())
+    lost = ~matters[own] & (controller >= 0)
+    for choices in (table, np.ones_like(table)):
+        acts = np.broadcast_to(decisions(space, behavior, choices) > 0, space.sizes).ravel()
+        if (acts & lost).any():
+            return tuple(np.unique(controller[acts & lost]).tolist())
+    return ()
 
 
 def any_of(cells: NDArray[np.int64], n_cells: int) -> Cells:

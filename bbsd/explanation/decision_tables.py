@@ -116,6 +116,7 @@ def _grid_of(
         f"{letter} {_column_text(across, column)}" for letter, column in zip(letters, columns, strict=True)
     )
     meanings = ", ".join(f"{symbols[word]} {word}" for word in words)
+    meanings += "; blank where it does not matter" if "" in layer.table else ""
     return [
         *table_lines([*_names(down), *letters], rows, indent),
         *wrapped(f"columns: {key}", indent, indent + "  "),

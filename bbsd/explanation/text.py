@@ -21,8 +21,10 @@ MAX_PLACES = 6
 """The number of conditions under which nobody controls that are listed, at most."""
 LONG = 90
 """Characters from which on it is not said where higher layers always act: they are listed above anyway."""
-MOST_INPUTS_IN_PROSE = 3
-"""Inputs of a behavior up to which its rules are sentences; of more, they are a decision table."""
+MOST_INPUTS_IN_PROSE, MOST_RULES_IN_PROSE = 3, 8
+"""Inputs and rules of a behavior up to which they are sentences; of more, they are a decision table."""
+MOST_UNASKED = 4
+"""Conditions in which a table says something else than the rules, and was never asked, that are listed, at most."""
 
 
 def explanation_text(explanation: Explanation) -> str:
@@ -78,9 +80,8 @@ def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
     width = min(max(len(layer.behavior) for layer in layers), NAME_WIDTH)
     lines: list[str] = []
     for layer in layers:
-        is_table = (
-            layer.rules and (all_tables or _n_inputs(layer) > MOST_INPUTS_IN_PROSE) and len(layer.rules) > 1
-        )
+        is_long = _n_inputs(layer) > MOST_INPUTS_IN_PROSE or len(layer.rules) > MOST_RULES_IN_PROSE
+        is_table = len(layer.rules) > 1 and (all_tables or is_long)
         head, column = f"{layer.layer:>{digits}}  {layer.behavior:<{width}}  ", digits + width + 4
         if not is_table:
             lines += hanging(
@@ -135,11 +136,11 @@ def _remarks(layer: LayerInWords, watched: Watched | None) -> list[str]:
 
 
 def _overruled(layer: LayerInWords) -> list[str]:
-    by = join_words(layer.overruled_by, "or") if layer.overruled_by else "layers above"
-    if layer.overruled_by and not layer.cells:
+    by = join_words(layer.overruled_by, "or")
+    if by and not layer.cells:
         one = "one of " if len(layer.overruled_by) > 1 else ""
         return [f"Never controls: {one}{by} above always does."]
-    if not layer.covered:
+    if not layer.covered or not by:
         return []
     lost, left = ("; or where ".join(conditions) for conditions in (layer.covered, layer.effective))
     if min(map(len, filter(None, (lost, left)))) > LONG:
@@ -158,7 +159,9 @@ def _never_asked(layer: LayerInWords, watched: Watched | None) -> list[str]:
     others = [f"{each.decision} where {each.where}" for each in layer.never_asked if not each.agrees]
     if not others:
         return [f"({start}; the rules hold there too.)"]
-    return [f"({start}; there the table says {'; '.join(others)}.)"]
+    n_more = len(others) - MOST_UNASKED
+    listed = [*others[:MOST_UNASKED], *([f"and more in {n_more} other places"] if n_more > 0 else [])]
+    return [f"({start}; there the table says {'; '.join(listed)}.)"]
 
 
 def _episodes(watched: Watched) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -386,6 +387,40 @@ def test_an_explanation_as_text_and_as_json(designed):
     code, out, err = bbsd("explain", designed[0] / "architecture.yaml", "--format", "json")
     assert (code, err) == (0, "")
     assert isinstance(json.loads(out), dict)
+
+
+def test_a_run_stands_for_its_design(designed):
+    folder = designed[0]
+    code, out, err = bbsd("explain", folder)
+    assert (code, err) == (0, "")
+    assert "In 20 episodes, " in out
+    assert bbsd("explain", folder / "architecture.yaml")[1] == out
+    by_folder, by_file = (
+        bbsd("evaluate", path, "--episodes", 5, "--json")[1]
+        for path in (folder, folder / "architecture.yaml")
+    )
+    assert by_folder == by_file
+
+
+def test_what_a_run_has_kept_counts_for_its_own_design_only(designed, tmp_path):
+    folder = tmp_path / "edited"
+    shutil.copytree(designed[0], folder)
+    path = folder / "architecture.yaml"
+    path.write_text(path.read_text() + "# by hand\n")
+    code, out, err = bbsd("explain", folder)
+    assert (code, "episodes" in out) == (0, False)
+    assert err == f"the visits that {folder} has kept are of another design; --episodes N counts anew\n"
+
+
+def test_a_folder_without_a_design_says_what_to_do(tmp_path):
+    code, out, err = bbsd("explain", tmp_path)
+    assert (code, out) == (2, "")
+    assert "a run has the files architecture.yaml and run.json" in err
+    (tmp_path / "run.json").write_text("{}")
+    code, out, err = bbsd("evaluate", tmp_path)
+    assert (code, out) == (2, "")
+    assert "has no answer yet" in err
+    assert f"bbsd design {tmp_path}/spec.yaml --resume --out {tmp_path}" in err
 
 
 def test_a_reader_that_stops_reading_is_no_mistake():

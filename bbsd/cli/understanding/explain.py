@@ -7,8 +7,10 @@ import typer
 
 import bbsd
 from bbsd.cli.options import DesignFile, Overrides, Seed
-from bbsd.cli.output import show
+from bbsd.cli.output import say, show
+from bbsd.errors import escape
 from bbsd.report.plain import json_text
+from bbsd.runs.storage.finished import VISITS
 
 
 class ExplanationFormat(StrEnum):
@@ -50,6 +52,8 @@ def explain(
     from bbsd.explanation import dot_text, explanation_text, mermaid_text, table_text, tree_text
 
     explanation = bbsd.explain(spec, seed=seed, episodes=episodes or 0, overrides=overrides or ())
+    if explanation.watched is None and (spec / VISITS).is_file():
+        say(f"the visits that {escape(str(spec))} has kept are of another design; --episodes N counts anew")
     if form is ExplanationFormat.JSON:
         show(json_text(explanation.to_plain()))
         return

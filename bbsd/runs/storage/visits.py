@@ -10,7 +10,7 @@ import numpy as np
 
 from bbsd.architecture.visits import Visits
 from bbsd.files import write_text_whole
-from bbsd.runs.storage.finished import ARCHITECTURE
+from bbsd.runs.storage.finished import ARCHITECTURE, VISITS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Counts = NDArray[np.int64]
 
-FILE, FORMAT = "visits.json", 1
+FORMAT = 1
 DIGEST = "architecture_sha256"
 
 
@@ -38,7 +38,7 @@ def write_visits(folder: Path, text: str, names: Sequence[str], visits: Visits) 
     )
     lines = [f"  {json.dumps(key)}: {json.dumps(value)}," for key, value in head.items()]
     content = "\n".join(["{", *lines, '  "behaviors": {', behaviors, "  }", "}", ""])
-    write_text_whole(folder / FILE, content)
+    write_text_whole(folder / VISITS, content)
 
 
 def _plain(asked: Counts, controlled: Counts) -> dict[str, Any]:
@@ -53,7 +53,7 @@ def _plain(asked: Counts, controlled: Counts) -> dict[str, Any]:
 def read_visits(folder: Path, names: Sequence[str]) -> Visits | None:
     """Return the visits of a run's design; None where there are none, or its file was changed since."""
     try:
-        content = json.loads((folder / FILE).read_text(encoding="utf-8"))
+        content = json.loads((folder / VISITS).read_text(encoding="utf-8"))
         if content["format"] != FORMAT or content[DIGEST] != _digest(folder / ARCHITECTURE):
             return None
         counts = [_counts(content["behaviors"][name]) for name in names]

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from bbsd.architecture.visits import Visits
-from bbsd.runs.storage.visits import FILE, read_visits, write_visits
+from bbsd.runs.storage.finished import VISITS as FILE
+from bbsd.runs.storage.visits import read_visits, write_visits
 
 VISITS = Visits(
     3,
