@@ -112,7 +112,10 @@ class _Judge:
             return "the return never changes"
         largest = max(abs(self.returns.mean), self.returns.sd, 1e-9)
         decimals = max(0, DIGITS - 1 - floor(log10(largest)))
-        low, high = (f"{round(value, decimals) + 0.0:+.{decimals}f}" for value in (change.low, change.high))
+        ends = [round(value, decimals) + 0.0 for value in (change.low, change.high)]
+        if not any(ends):
+            return f"the return changes by less than {10**-decimals:g}"
+        low, high = (f"{value:+.{decimals}f}" for value in ends)
         return f"return {low} to {high}"
 
 

@@ -9,6 +9,7 @@ from rich.text import Text
 
 from bbsd.errors import escape
 from bbsd.explanation.worth.findings import rule_text
+from bbsd.explanation.worth.results import clearly_above, clearly_below, never_changes
 from bbsd.report.numbers import column, count, percent, with_halves
 from bbsd.report.tables import INTERVAL, plain_table
 
@@ -130,8 +131,19 @@ def _swaps(swaps: Sequence[Swap]) -> Table:
     table = plain_table("neighbors exchanged", "change of the return", "", right=[1])
     for swap, text in zip(swaps, with_halves([swap.change for swap in swaps]), strict=True):
         names = Text(escape(f"{swap.upper}, {swap.lower}"))
-        table.add_row(names, text, "proven equal by the tables" if swap.never else "")
+        table.add_row(names, text, _verdict(swap))
     return table
+
+
+def _verdict(swap: Swap) -> str:
+    """Return what an exchange of two layers comes to."""
+    if swap.never:
+        return "proven equal by the tables"
+    if never_changes(swap.change):
+        return "never any change"
+    if clearly_above(swap.change):
+        return "better"
+    return "" if clearly_below(swap.change) else "no measurable change"
 
 
 def _orders(orders: Sequence[Order], precedence: Precedence) -> RenderableType:

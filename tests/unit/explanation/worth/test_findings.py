@@ -101,6 +101,10 @@ def test_a_behavior_is_judged_by_what_happens_without_it():
     assert judged(behavior(SMALL, control=0.004)) == [
         ("idle", "seek is hardly in control and can be removed: return -0.020 to +0.040")
     ]
+    tiny = Interval(1e-6, 1e-4, -5e-6, 7e-6, 1000)
+    assert judged(behavior(tiny)) == [
+        ("removable", "seek can be removed: the return changes by less than 0.001")
+    ]
     assert judged(behavior(NOTHING)) == [("removable", "seek can be removed: the return never changes")]
     assert judged(behavior(NOTHING, control=0.0)) == [
         ("idle", "seek never controls: it can be removed, the return never changes")
