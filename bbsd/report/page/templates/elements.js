@@ -25,11 +25,11 @@ function section(id, title, ...children) {
 
 // A table whose first column names its rows; cells are texts, numbers or elements.
 function table(caption, headings, rows, { left = [0] } = {}) {
-  const align = (index) => (left.includes(index) ? null : "number");
-  const head = headings.map((text, index) => element("th", { scope: "col", class: align(index) ?? "" }, text));
+  const kind = (index, cell) => (!left.includes(index) ? "number" : String(cell).length > 40 ? "long" : "");
+  const head = headings.map((text, index) => element("th", { scope: "col", class: kind(index, "") }, text));
   const body = rows.map((row) =>
     element("tr", {}, ...row.map((cell, index) =>
-      element(index ? "td" : "th", index ? { class: align(index) ?? "" } : { scope: "row" }, cell instanceof Node ? cell : String(cell)))));
+      element(index ? "td" : "th", { class: kind(index, cell), scope: index ? null : "row" }, cell instanceof Node ? cell : String(cell)))));
   const made = element("table", {}, element("caption", {}, caption), element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body));
   return scrolling(made, caption);
 }
