@@ -12,16 +12,19 @@ from benchmarks.processes import ABSTRACT, LIFTING, Usage, design_command, measu
 from benchmarks.report import Goal, Section, table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping, Sequence
 
 PASS, HELP, CHECK = "python -c pass", "bbsd --help", "bbsd check specs/paper/object_lifting.yaml"
+EXPLAIN = "bbsd explain RUN, of that design"
 DESIGN_LIFTING = "bbsd design specs/paper/object_lifting.yaml"
 DESIGN_ABSTRACT = "bbsd design specs/paper/abstract.yaml"
 NEW, COLD = "a new spec, library cached, to its first generation", "the same, everything cold"
 
-BOUNDS = {HELP: 8, CHECK: 16, DESIGN_LIFTING: 1.5, DESIGN_ABSTRACT: 8, NEW: 2, COLD: 15}
+BOUNDS = {HELP: 8, CHECK: 16, EXPLAIN: 2, DESIGN_LIFTING: 1.5, DESIGN_ABSTRACT: 8, NEW: 2, COLD: 15}
 AGAINST_PASS = (HELP, CHECK)
 """The commands whose bound is a multiple of `python -c pass`; the others are bounded in seconds."""
+AGAINST_CHECK = (EXPLAIN,)
+"""The commands whose bound is a multiple of `bbsd check`."""
 TWICE_ONLY = (COLD, DESIGN_ABSTRACT)
 """Long commands, which run in two rounds only."""
 
@@ -34,22 +37,19 @@ def section(*, quick: bool) -> Section:
         command: Usage(*np.median([(one.clock, one.processor, one.memory) for one in runs], axis=0))
         for command, runs in usages.items()
     }
-    shares = {
-        command: float(
-            np.median([run.clock / bare.clock for run, bare in zip(runs, usages[PASS], strict=False)])
-        )
-        for command, runs in usages.items()
-    }
+    shares = _times(usages, PASS)
+    goals = [
+        *_goals(usages, AGAINST_PASS, PASS),
+        *_goals(usages, AGAINST_CHECK, CHECK),
+        *(
+            Goal(f"{command}, seconds", medians[command].clock, BOUNDS[command])
+            for command in usages
+            if command in BOUNDS and command not in (*AGAINST_PASS, *AGAINST_CHECK)
+        ),
+    ]
     rows = [
         [command, f"{one.clock:.3g}", f"{one.processor:.3g}", f"{shares[command]:.3g}", f"{one.memory:.0f}"]
         for command, one in medians.items()
-    ]
-    goals = [
-        Goal(f"{command}, times python -c pass", shares[command], BOUNDS[command])
-        if command in AGAINST_PASS
-        else Goal(f"{command}, seconds", medians[command].clock, BOUNDS[command])
-        for command in usages
-        if command in BOUNDS
     ]
     text = (
         "Medians of rounds in which each command ran once, seed 0, Python's bytecode and the kernels cached unless it "
@@ -60,6 +60,21 @@ def section(*, quick: bool) -> Section:
     return Section("Whole processes", [text, table(head, rows)], goals)
 
 
+def _times(usages: Mapping[str, Sequence[Usage]], other: str) -> dict[str, float]:
+    """Return how many times as long as another command each one takes, as the median over rounds."""
+    return {
+        command: float(
+            np.median([run.clock / base.clock for run, base in zip(runs, usages[other], strict=False)])
+        )
+        for command, runs in usages.items()
+    }
+
+
+def _goals(usages: Mapping[str, Sequence[Usage]], commands: Sequence[str], other: str) -> list[Goal]:
+    times = _times(usages, other)
+    return [Goal(f"{command}, times {other}", times[command], BOUNDS[command]) for command in commands]
+
+
 def measured(folder: Path, *, quick: bool) -> dict[str, list[Usage]]:
     """Return what each command used in each of its rounds."""
     bbsd, warm = [measured_python(), "-m", "bbsd"], folder / "warm"
@@ -68,6 +83,7 @@ def measured(folder: Path, *, quick: bool) -> dict[str, list[Usage]]:
         HELP: lambda _: usage_of([*bbsd, "--help"], warm),
         CHECK: lambda _: usage_of([*bbsd, "check", LIFTING], warm),
         DESIGN_LIFTING: lambda turn: usage_of(design_command(LIFTING, folder / f"lifting-{turn}"), warm),
+        EXPLAIN: lambda _: usage_of([*bbsd, "explain", str(folder / "lifting--1")], warm),
         NEW: lambda turn: to_first_generation(folder / f"new-{turn}", warm, steps=301 + turn),
         COLD: lambda turn: to_first_generation(folder / f"cold-{turn}", folder / f"cache-{turn}", steps=300),
     }
@@ -75,8 +91,9 @@ def measured(folder: Path, *, quick: bool) -> dict[str, list[Usage]]:
         commands[DESIGN_ABSTRACT] = lambda turn: usage_of(
             design_command(ABSTRACT, folder / f"abstract-{turn}"), warm
         )
-    for name in commands.keys() - {NEW, COLD}:
-        commands[name](-1)
+    for name, run in commands.items():
+        if name not in (NEW, COLD):
+            run(-1)
     usages: dict[str, list[Usage]] = {name: [] for name in commands}
     for turn in range(2 if quick else 5):
         for name, run in commands.items():
