@@ -40,7 +40,7 @@ class Agents:
     def held(self, behavior: int) -> Agents:
         """Return the same agents with one of their behaviors held to No Action, its given cells too."""
         pools, members = list(self.pools), self.members.copy()
-        pools[behavior] = np.full_like(self.pools[behavior][:1], NO_ACTION)
+        pools[behavior] = no_action(self.pools[behavior][:1])
         members[:, behavior] = 0
         return Agents(tuple(pools), members, self.structures)
 
@@ -48,6 +48,11 @@ class Agents:
         """Return the architecture of one agent."""
         tables = tuple(pool[self.members[agent, index]] for index, pool in enumerate(self.pools))
         return Architecture(tables, self.structures[agent])
+
+
+def no_action(tables: Pool) -> Pool:
+    """Return tables of the same shape that hold a behavior to No Action, its given cells too."""
+    return np.full_like(tables, NO_ACTION)
 
 
 def agents_of(architectures: Sequence[Architecture]) -> Agents:

@@ -133,7 +133,7 @@ class Disturbed:
     def learned(self, episodes: int) -> Structure:
         """Return the best order around the fault, or the given one where none is clearly better.
 
-        Of few layers all orders are tried, of many two are exchanged as long as it helps.
+        Of few layers all orders are tried; of many, behaviors change their places as long as it helps.
         """
         best, stream = self.architecture.structure, fold(self.key, ORDERS)
         for climbed in range(len(best)):

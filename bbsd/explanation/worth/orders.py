@@ -13,7 +13,7 @@ from bbsd.explanation.worth.results import Order, Precedence, clearly_below
 from bbsd.explanation.worth.variants import Variants
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -31,14 +31,22 @@ SHOWN = 5
 def tried_orders(structure: Structure) -> tuple[list[Structure], bool]:
     """Return the structures to compare with one, itself first, and whether these are all there are.
 
-    With many layers they are those with any two layers exchanged.
+    With many layers they are those in which two behaviors are exchanged, or one has another place.
     """
     layers = structure.tolist()
-    if len(layers) <= MOST_LAYERS:
-        orders = [layers, *(list(each) for each in permutations(layers) if list(each) != layers)]
-        return [np.array(order, np.int64) for order in orders], True
-    swaps = [swapped(structure, low, high) for low, high in combinations(range(len(layers)), 2)]
-    return [structure, *swaps], False
+    whole = len(layers) <= MOST_LAYERS
+    others = permutations(layers) if whole else map(tuple, _neighbors(structure))
+    orders = dict.fromkeys([tuple(layers), *others])
+    return [np.array(order, np.int64) for order in orders], whole
+
+
+def _neighbors(structure: Structure) -> Iterator[list[int]]:
+    for low, high in combinations(range(len(structure)), 2):
+        yield swapped(structure, low, high).tolist()
+    for place, behavior in enumerate(structure.tolist()):
+        others = np.delete(structure, place)
+        for other_place in range(len(structure)):
+            yield np.insert(others, other_place, behavior).tolist()
 
 
 def swapped(structure: Structure, one: int, other: int) -> Structure:

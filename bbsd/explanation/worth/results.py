@@ -111,7 +111,7 @@ class Precedence:
     """What must stand above what: the pairs that all structures have in common which are not clearly worse.
 
     `above` has only pairs with nothing between them. `tried` structures were compared, `whole` says whether these are
-    all there are; else they are the given one and those with two layers exchanged.
+    all there are; else they are the given one, and those with two behaviors exchanged or one in another place.
     """
 
     above: tuple[tuple[str, str], ...]

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.evaluation import Agents
-from bbsd.language.meaning.tables.table import NO_ACTION
+from bbsd.evaluation.agents import Agents, no_action
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,7 +33,7 @@ class Variants:
 
     def without(self, behavior: int, label: str) -> int:
         """Add the design with one behavior held to No Action, and return the variant's number."""
-        return self.with_table(behavior, np.full_like(self._base.tables[behavior], NO_ACTION), label)
+        return self.with_table(behavior, no_action(self._base.tables[behavior]), label)
 
     def with_structure(self, structure: NDArray[np.int64], label: str) -> int:
         """Add the design with another structure, lowest layer first, and return the variant's number."""

@@ -106,12 +106,16 @@ def _rules(worth: Worth) -> Table:
     """Return the rules of each behavior with their share of control, and the change of the return without them."""
     table = plain_table("rule", "in control", "if dropped", right=[1, 2])
     shown = {each.behavior: _most_used(each.rules) for each in worth.behaviors}
+    none = {
+        each.behavior: "no action" if each.rules else "too many to look at one by one"
+        for each in worth.behaviors
+    }
     changes = [rule.dropped for rules in shown.values() for rule in rules if rule.dropped is not None]
     texts = iter(with_halves(changes))
     for behavior, rules in shown.items():
         table.add_row(Text(escape(behavior), "bold"))
         if not rules:
-            table.add_row(Text("  too many to look at one by one", "dim"))
+            table.add_row(Text(f"  {none[behavior]}", "dim"))
         for rule in rules:
             named = Text(escape(f"  {rule_text(rule)}"), "" if rule.acts else "dim")
             table.add_row(
@@ -151,7 +155,7 @@ def _orders(orders: Sequence[Order], precedence: Precedence) -> RenderableType:
     for order, text in zip(orders, with_halves([order.change for order in orders]), strict=True):
         alike = f", and {count(order.alike - 1, 'order')} that must do the same" if order.alike > 1 else ""
         table.add_row(text, Text(escape(f"{' '.join(order.structure)}{alike}")))
-    tried = "all" if precedence.whole else "those with any two layers exchanged"
+    tried = "all" if precedence.whole else "two behaviors exchanged, or one elsewhere"
     note = f"of {count(precedence.tried, 'order')} ({tried}), chosen in other episodes than these"
     return Group(table, note)
 

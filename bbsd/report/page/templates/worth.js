@@ -39,7 +39,7 @@ function orders(worth) {
     behind("Table: what must stand above what", () => table("Pairs that all orders have in common which are not clearly worse", ["above", "below"], above, { left: [0, 1] })),
     estimates("Change of the return if neighbors are exchanged", ["neighbors", "change", "95 % interval", "by the tables"],
       worth.swaps.map((swap) => ({ ...spread(swap.change), cells: [`${swap.upper}, ${swap.lower}`, change(swap.change), between(swap.change), swap.proven_equal ? "equal" : ""] }))),
-    behind("Table: the best orders", () => table(`The best of ${counted(tried, "order")} (${all ? "all" : "those with any two layers exchanged"})`, ["highest layer first", "change", "95 % interval", "do just the same"],
+    behind("Table: the best orders", () => table(`The best of ${counted(tried, "order")} (${all ? "all" : "two behaviors exchanged, or one elsewhere"})`, ["highest layer first", "change", "95 % interval", "do just the same"],
       best.map((order) => [order.structure.join(" "), change(order.change), between(order.change), order.alike]))),
   ];
 }
