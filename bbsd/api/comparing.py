@@ -10,11 +10,15 @@ from bbsd.architecture import HolesLeft, given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.evaluation import evaluation_keys
-from bbsd.explanation.comparison import Comparison, Design, compare_designs
+from bbsd.explanation.comparison import Comparison, Design, compare_designs, earned_by
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from bbsd.evaluation import PairedEpisodes
     from bbsd.language.loading import Loaded
 
 EPISODES = 1000
@@ -50,8 +54,13 @@ def compare(
     if episodes < 2:
         raise ValueError("a comparison needs two episodes at least")
     one, other = (_design(load(spec, seed=seed, overrides=overrides), lanes, jobs) for spec in (a, b))
-    with located_reward_errors(one.loaded):
-        return compare_designs(one, other, evaluation_keys(seed, episodes))
+    streams = evaluation_keys(seed, episodes)
+    return compare_designs(one, other, streams, (_earned(one, streams), _earned(other, streams)))
+
+
+def _earned(design: Design, streams: NDArray[np.uint64]) -> PairedEpisodes:
+    with located_reward_errors(design.loaded):
+        return earned_by(design, streams)
 
 
 def _design(loaded: Loaded, lanes: int, jobs: int) -> Design:

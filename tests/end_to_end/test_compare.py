@@ -61,6 +61,11 @@ def test_mistakes_of_the_user(designs):
     code, out, err = bbsd("compare", "a.yaml", "holes.yaml", cwd=designs)
     assert (code, out) == (2, "")
     assert "holes.yaml: the design has holes: 2 of 2 layers open" in err
+    (designs / "infinite.yaml").write_text(edited(WALK, ("late: -y", "far: 1 / (y - y)")))
+    code, out, err = bbsd("compare", "a.yaml", "infinite.yaml", cwd=designs)
+    assert (code, out) == (2, "")
+    assert "infinite.yaml:" in err
+    assert "error[BB045]" in err
     assert bbsd("compare", "a.yaml", cwd=designs)[0] == 2
     assert bbsd("compare", "a.yaml", "nowhere.yaml", cwd=designs)[0] == 2
     assert bbsd("compare", "a.yaml", "b.yaml", "--episodes", 1, cwd=designs)[0] == 2
@@ -74,14 +79,16 @@ def git(*words, cwd):
         "GIT_COMMITTER_DATE": "2026-01-01T00:00:00Z",
     }
     who = ("-c", "user.name=designer", "-c", "user.email=designer@example.org")
-    return subprocess.run(
+    done = subprocess.run(
         ["git", *who, *words],
         cwd=cwd,
         env={**os.environ, **settings},
         capture_output=True,
         text=True,
-        check=True,
-    ).stdout
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
@@ -104,10 +111,16 @@ def test_git_shows_what_changed_in_a_design(tmp_path, way):
         git(
             "config",
             "diff.bbsd.command",
-            f'f() {{ {tool} compare --episodes 20 "$2" "$5"; }}; f',
+            f'f() {{ {tool} compare --episodes 20 "$2" "$5" || true; }}; f',
             cwd=tmp_path,
         )
         shown = git("diff", cwd=tmp_path)
         assert "go: right becomes stay" in shown
         assert "of A's robot-steps B would have commanded something else" in shown
     assert "rules:" not in shown
+    new = tmp_path / "new"
+    new.mkdir()
+    shutil.copy(path, new)
+    git("add", "-N", ".", cwd=tmp_path)
+    shown = git("diff", cwd=tmp_path)
+    assert ("+1  go    stay where odd" in shown) == (way == "words")

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bbsd.architecture.deciding import asked_at, cells_at, policy_at
-from bbsd.architecture.policy import policy
 from bbsd.evaluation.situations import situations
+from bbsd.explanation.comparison.places import Places, places
 from bbsd.explanation.comparison.results import Command, CommandDifference, Commands
-from bbsd.explanation.conditions import condition_texts
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -75,12 +73,11 @@ def commands(a: Watched, b: Watched) -> Commands:
         share_b = b.share_of(groups_b[pair]) if pair in groups_b else 0.0
         shares[pair] = share_a, share_b
     differences: list[CommandDifference] = []
-    whole = _Whole(a), _Whole(b)
     for pair, (share_a, share_b) in sorted(shares.items(), key=lambda item: -sum(item[1])):
-        where: tuple[str, ...] = ()
+        found = Places((), 0)
         if len(differences) < MOST_IN_WORDS:
-            where = whole[0].where(groups_a[pair]) if share_a >= share_b else whole[1].where(groups_b[pair])
-        differences.append(CommandDifference(*pair, share_a, share_b, where))
+            found = _where(a, groups_a.get(pair), b, groups_b.get(pair), in_a=share_a >= share_b)
+        differences.append(CommandDifference(*pair, share_a, share_b, *found))
     return Commands(
         a.share,
         b.share,
@@ -111,31 +108,26 @@ def _command(host: Hosted, number: int) -> Command:
     return Command(host.names[behavior], actions[number - host.space.first_actions[behavior] - 1])
 
 
-class _Whole:
-    """What a host and its guest do in all situations of a joint space that is small enough."""
-
-    def __init__(self, watched: Watched) -> None:
-        self._watched = watched
-
-    @cached_property
-    def _commands(self) -> NDArray[np.int64]:
-        """A number for what both do in each joint cell, (n_joint,)."""
-        host = self._watched.host
-        own, guest = (policy(host.space, design).astype(np.int64) for design in (host.own, host.guest))
-        return own * (int(guest.max()) + 1) + guest
-
-    def where(self, which: NDArray[np.bool_]) -> tuple[str, ...]:
-        """Return conditions that hold in some of the situations that were met, and nowhere where commands are others.
-
-        None where the space is too large, or they would be too long to read.
-        """
-        host = self._watched.host
-        if not host.space.is_small or not host.space.sizes:
-            return ()
-        cells = np.zeros(host.space.joint_size, np.bool_)
-        cells[np.ravel_multi_index(tuple(self._watched.met.cells[which].T), host.space.sizes)] = True
-        allowed = np.isin(self._commands, np.unique(self._commands[cells])) & ~cells
-        return condition_texts(cells, allowed, host.dimensions)
+def _where(
+    a: Watched,
+    group_a: NDArray[np.bool_] | None,
+    b: Watched,
+    group_b: NDArray[np.bool_] | None,
+    *,
+    in_a: bool,
+) -> Places:
+    """Return where a group of situations is among all that were met by both; of one host where inputs are others."""
+    met, groups = [a.met, b.met], [group_a, group_b]
+    host = a.host if in_a else b.host
+    if dict(a.host.dimensions) != dict(b.host.dimensions):
+        which = 0 if in_a else 1
+        met, groups = met[which : which + 1], groups[which : which + 1]
+    meant = [
+        np.zeros(len(each.cells), np.bool_) if group is None else group
+        for each, group in zip(met, groups, strict=True)
+    ]
+    cells, visits = (np.concatenate([getattr(each, name) for each in met]) for name in ("cells", "visits"))
+    return places(cells, np.concatenate(meant), visits, host.dimensions)
 
 
 def with_asked(

@@ -29,15 +29,29 @@ MOST_LISTED = 6
 """Names that a note lists."""
 
 
-def compare_designs(a: Design, b: Design, streams: NDArray[np.uint64]) -> Comparison:
-    """Compare two designs in the same episodes, named by their keys (n_episodes,).
+def earned_by(design: Design, streams: NDArray[np.uint64]) -> PairedEpisodes:
+    """Return what a design earns in episodes, named by their keys (n_episodes,).
 
     Raises:
         RewardNotFinite: a reward was infinite or not a number.
     """
+    agents, labels = agents_of([design.architecture]), [design.loaded.source.file]
+    generation = _generation(design)
+    return paired_episodes(design.problem, agents, streams, generation, with_terms=True, labels=labels)
+
+
+def compare_designs(
+    a: Design, b: Design, streams: NDArray[np.uint64], earned: tuple[PairedEpisodes, PairedEpisodes]
+) -> Comparison:
+    """Compare two designs.
+
+    Args:
+        a, b: the designs.
+        streams: the keys of the episodes in which both act, (n_episodes,).
+        earned: what each of them earns there.
+    """
     world = world_differences(a.loaded, b.loaded)
     is_paired, notes = not world, [*_notes(a, b, world)]
-    earned = [_earned(design, streams) for design in (a, b)]
     host_a, host_b = _hosted(a, b, "B", notes), _hosted(b, a, "A", notes)
     watched_a, watched_b = (
         _watched(host, design, streams, notes) for host, design in ((host_a, a), (host_b, b))
@@ -91,14 +105,6 @@ def _listed(words: Sequence[str]) -> str:
 
 def _generation(design: Design) -> int:
     return design.loaded.spec.design.coevolution.generations
-
-
-def _earned(design: Design, streams: NDArray[np.uint64]) -> PairedEpisodes:
-    agents = agents_of([design.architecture])
-    labels = [design.loaded.source.file]
-    return paired_episodes(
-        design.problem, agents, streams, _generation(design), with_terms=True, labels=labels
-    )
 
 
 def _hosted(host: Design, guest: Design, guest_name: str, notes: list[str]) -> Hosted | None:

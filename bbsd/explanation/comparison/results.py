@@ -27,10 +27,9 @@ class CommandDifference:
     """Of A's robot-steps in its episodes, the part that began in such a situation; `share_b` of B's in B's."""
     share_b: float
     where: tuple[str, ...]
-    """Conditions, one of which holds in each of these situations that was met, and never elsewhere.
-
-    Empty where they would be too long to read.
-    """
+    """Conditions, none of which holds in any other situation that was met; empty for rare differences."""
+    left: int
+    """Situations that were met and fulfil none of the conditions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +56,7 @@ class RuleChange:
     after: str
     cells: int
     where: tuple[str, ...]
-    """As in CommandDifference."""
+    """Conditions, one of which holds in each of these cells, and in no other; empty where they would be too long."""
     asked_a: float | None = None
     """Of A's robot-steps, those in which A's behavior was asked there: it was excited, and no higher one acted."""
     asked_b: float | None = None

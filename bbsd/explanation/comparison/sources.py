@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bbsd.architecture import Architecture
-from bbsd.evaluation import agents_of, paired_episodes
+from bbsd.evaluation import RewardNotFinite, agents_of, paired_episodes
 from bbsd.evaluation.statistics import interval
 from bbsd.explanation.comparison.results import Source
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from bbsd.compiler import Problem
     from bbsd.evaluation import Interval
     from bbsd.explanation.comparison.hosting import Hosted
     from bbsd.explanation.comparison.results import Order, Redefined, RuleChange
@@ -57,7 +58,9 @@ def measured(
     b: tuple[Hosted, int] | None,
     streams: NDArray[np.uint64],
 ) -> tuple[Source, ...]:
-    """Return changes with what they are worth in both designs; None where the guest cannot act in the host's world.
+    """Return changes with what they are worth in both designs.
+
+    None where the guest cannot act in the host's world, or a reward would not be finite.
 
     Args:
         found: the changes.
@@ -84,9 +87,20 @@ def _effects(
     returns = np.empty((len(designs), len(streams)))
     for n_layers in {len(design.structure) for design in designs}:
         which = [index for index, design in enumerate(designs) if len(design.structure) == n_layers]
-        agents = agents_of([designs[index] for index in which])
-        returns[which] = paired_episodes(host.problem, agents, streams, generation).returns
-    return [interval(each - returns[0]) for each in returns[1:]]
+        returns[which] = _returns(host.problem, [designs[index] for index in which], streams, generation)
+    return [interval(each - returns[0]) if np.isfinite(each).all() else None for each in returns[1:]]
+
+
+def _returns(
+    problem: Problem, designs: Sequence[Architecture], streams: NDArray[np.uint64], generation: int
+) -> NDArray[np.float64]:
+    """Return what designs with equally many layers earn, (n_designs, n_episodes); NaN where a reward is not finite."""
+    try:
+        return paired_episodes(problem, agents_of(designs), streams, generation).returns
+    except RewardNotFinite:
+        if len(designs) == 1:
+            return np.full((1, len(streams)), np.nan)
+    return np.concatenate([_returns(problem, [design], streams, generation) for design in designs])
 
 
 def taken_over(host: Hosted, change: Change) -> Architecture:

@@ -73,6 +73,7 @@ def _commands(commands: Commands) -> dict[str, Plain]:
                 "share_of_a": each.share_a,
                 "share_of_b": each.share_b,
                 "where": each.where,
+                "situations_left": each.left,
             }
             for each in commands.differences
         ],

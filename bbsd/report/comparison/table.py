@@ -114,7 +114,7 @@ def _commands(commands: Commands) -> RenderableType:
     shown, rest = commands.differences[:MOST_ROWS], commands.differences[MOST_ROWS:]
     for each in shown:
         what = f"{_command(each.a)}; {_command(each.b)}"
-        table.add_row(percent(each.share_a), percent(each.share_b), _with_places(what, each.where))
+        table.add_row(percent(each.share_a), percent(each.share_b), _with_places(what, each.where, each.left))
     if rest:
         share_a, share_b = sum(each.share_a for each in rest), sum(each.share_b for each in rest)
         table.add_row(percent(share_a), percent(share_b), f"{len(rest)} more pairs of commands")
@@ -125,15 +125,18 @@ def _command(command: Command) -> str:
     return f"{command.action} by {command.behavior}" if command.behavior else "nobody"
 
 
-def _with_places(what: str, where: Sequence[str]) -> Text:
-    """Return what happens, and below it where: a few conditions, each on lines of its own."""
+def _with_places(what: str, where: Sequence[str], left: int = 0) -> Text:
+    """Return what happens, and below it where: a few conditions, each on lines of its own.
+
+    `left` situations fulfil none of the conditions.
+    """
     text = Text(escape(what))
     for index, condition in enumerate(where[:MOST_PLACES]):
         text.append(
             f"\n{'or ' if index else 'where '}{escape(condition)}" if condition else "\nanywhere", "dim"
         )
-    if len(where) > MOST_PLACES:
-        text.append(f"\nor in {len(where) - MOST_PLACES} more places", "dim")
+    if len(where) > MOST_PLACES or left:
+        text.append("\nor elsewhere", "dim")
     return text
 
 

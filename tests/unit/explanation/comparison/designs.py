@@ -2,7 +2,7 @@
 
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
-from bbsd.explanation.comparison import Design
+from bbsd.explanation.comparison import Design, compare_designs, earned_by
 from bbsd.language.loading import load
 from bbsd.text import Source
 from tests.unit.architecture.designs import shipped
@@ -43,3 +43,8 @@ def design_of(text, name="spec.yaml", seed=0):
     loaded = load(Source(name, text), seed=seed)
     problem = compile_meaning(loaded.meaning, compiled=False, lanes=4)
     return Design(loaded, problem, given_architecture(problem))
+
+
+def compared_designs(a, b, streams):
+    """Two designs compared in episodes."""
+    return compare_designs(a, b, streams, (earned_by(a, streams), earned_by(b, streams)))

@@ -1,11 +1,12 @@
+import importlib
+
 import numpy as np
 import pytest
 
 from bbsd.evaluation import agents_of, evaluation_keys, returns_of, trace
-from bbsd.explanation.comparison import compare_designs
 from bbsd.explanation.comparison import sources as sources_module
 from bbsd.explanation.comparison.results import Command
-from tests.unit.explanation.comparison.designs import WALK, design_of, edited
+from tests.unit.explanation.comparison.designs import WALK, compared_designs, design_of, edited
 
 KEYS = evaluation_keys(0, 12)
 
@@ -19,7 +20,7 @@ FASTER = edited(WALK, ("right: {x: x + 1}", "right: {x: x + 2}"))
 
 
 def compared(a, b, keys=KEYS):
-    return compare_designs(design_of(a, "a.yaml"), design_of(b, "b.yaml"), keys)
+    return compared_designs(design_of(a, "a.yaml"), design_of(b, "b.yaml"), keys)
 
 
 def commands_in_traces(host, guest):
@@ -50,7 +51,7 @@ def effect(design, at):
 @pytest.mark.parametrize("other", [OTHER_RULES, NO_BACK, REORDERED, REDEFINED, FASTER])
 def test_commands_differ_where_the_traces_say_so(other):
     a, b = design_of(WALK), design_of(other)
-    found = compare_designs(a, b, KEYS).commands
+    found = compared_designs(a, b, KEYS).commands
     for share, steps, (host, guest) in (
         (found.share_a, found.steps_a, (a, b)),
         (found.share_b, found.steps_b, (b, a)),
@@ -181,3 +182,25 @@ def test_behaviors_without_meaning_in_the_other_world_are_named():
     assert comparison.sources == ()
     assert any("cannot act in the other environment" in note for note in comparison.notes)
     assert comparison.return_b.count == 12
+
+
+def test_a_change_whose_rewards_would_not_be_finite_has_no_worth():
+    """The rules alone lead where the reward is infinite; with the other order they do not."""
+    risky = edited(WALK, ("late: -y", "late: 1 / (x - 90)"))
+    jump = edited(risky, ("stay: {x: x}", "stay: {x: 90}"))
+    other = edited(
+        jump,
+        ("rules: [otherwise: right]", "rules: [{when: {odd: true}, do: stay}, {otherwise: right}]"),
+        ("rules: [{when: {far: true}, do: left}, {otherwise: no action}]", "rules: [otherwise: left]"),
+    )
+    found = sources_of(jump, other)
+    assert found["rules", "go", "stay"].in_a is None
+    assert found["rules", "back", "left"].in_a is not None
+    assert found["rules", "back", "left"].in_b is None
+
+
+def test_a_space_too_large_to_go_through_is_compared_where_it_was_visited(monkeypatch):
+    whole = compared(WALK, REORDERED)
+    module = importlib.import_module("bbsd.architecture.policy")  # the name is that of a function too
+    monkeypatch.setattr(module, "MAX_JOINT_CELLS", 1)
+    assert compared(WALK, REORDERED) == whole

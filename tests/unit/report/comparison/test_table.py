@@ -5,10 +5,9 @@ import pytest
 from rich.console import Console
 
 from bbsd.evaluation import evaluation_keys
-from bbsd.explanation.comparison import compare_designs
 from bbsd.report.comparison import comparison_plain, comparison_table
 from bbsd.report.plain import json_text
-from tests.unit.explanation.comparison.designs import WALK, design_of, edited
+from tests.unit.explanation.comparison.designs import WALK, compared_designs, design_of, edited
 
 OTHER = edited(
     WALK,
@@ -18,7 +17,7 @@ OTHER = edited(
 
 
 def compared(a, b, name="b.yaml"):
-    return compare_designs(design_of(a, "a.yaml"), design_of(b, name), evaluation_keys(0, 12))
+    return compared_designs(design_of(a, "a.yaml"), design_of(b, name), evaluation_keys(0, 12))
 
 
 def printed(comparison, width=80):
@@ -84,7 +83,8 @@ def test_json_has_all_of_it(comparison):
     plain = json.loads(json_text(comparison_plain(comparison)))
     assert plain["return"]["difference"]["mean"] == comparison.difference.mean
     assert plain["reward_terms"].keys() == {"here", "late"}
-    assert plain["commands"]["differences"][0].keys() == {"a", "b", "share_of_a", "share_of_b", "where"}
+    keys = {"a", "b", "share_of_a", "share_of_b", "where", "situations_left"}
+    assert plain["commands"]["differences"][0].keys() == keys
     assert plain["order"] == {"a": ["back", "go"], "b": ["go", "back"], "moved": ["go"]}
     assert [each["kind"] for each in plain["sources"]] == ["order", "rules"]
     assert plain["sources"][0]["taken_over_into_a"]["mean"] == comparison.sources[0].in_a.mean

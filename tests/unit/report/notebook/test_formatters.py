@@ -9,10 +9,9 @@ import pytest
 import bbsd
 from bbsd.api import explain
 from bbsd.evaluation import evaluation_keys
-from bbsd.explanation.comparison import compare_designs
 from bbsd.report.notebook.formatters import FORMATTERS, register
 from bbsd.runs.storage.watching import Watched, WatchedRun
-from tests.unit.explanation.comparison.designs import HAND, WALK, design_of, edited
+from tests.unit.explanation.comparison.designs import HAND, WALK, compared_designs, design_of, edited
 from tests.unit.report.notebook.test_html import Reader
 from tests.unit.report.watching.test_events import SEARCH
 
@@ -72,7 +71,9 @@ def test_explanations_and_comparisons(shell, tmp_path):
     assert page.startswith("<pre>")
     assert "stop_at_goal" in plain
     other = edited(WALK, ("do: left}", "do: no action}"))
-    comparison = compare_designs(design_of(WALK, "a.yaml"), design_of(other, "b.yaml"), evaluation_keys(0, 5))
+    comparison = compared_designs(
+        design_of(WALK, "a.yaml"), design_of(other, "b.yaml"), evaluation_keys(0, 5)
+    )
     page, plain = shown(shell, comparison)
     assert "left by back; right by go<br>where far" in page
     assert plain.startswith("<Comparison: b.yaml earns +")
