@@ -91,6 +91,7 @@ def git(*words, cwd):
     return done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 @pytest.mark.parametrize("way", ["words", "comparison"])
 def test_git_shows_what_changed_in_a_design(tmp_path, way):
