@@ -64,6 +64,15 @@ def test_ctrl_c_ends_it_without_a_word(tmp_path):
     assert (watching.returncode, out, err) == (130, "", "")
 
 
+def test_a_run_that_was_stopped_ends_it_and_can_be_continued(tmp_path):
+    (tmp_path / "run.json").write_text('{"runs": 1, "seed": 4, "budgets": [600]}')
+    (tmp_path / "spec.yaml").write_text(SPEC.read_text())
+    code, out, err = bbsd("watch", tmp_path)
+    assert (code, out) == (0, f"{tmp_path} was stopped\n")
+    assert "--resume --out" in err
+    assert "--seed 4" in err
+
+
 def test_another_folder_is_refused(tmp_path):
     shutil.copy(SPEC, tmp_path / "other.yaml")
     code, out, err = bbsd("watch", tmp_path)

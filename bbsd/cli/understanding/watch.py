@@ -73,11 +73,20 @@ def watch(
                     if events is not None:
                         events.update(now)
                     before = now
+            _say_how_to_go_on(before)
             if serve:
                 page.finish()
                 Event().wait()
     except KeyboardInterrupt:
         raise typer.Exit(INTERRUPTED) from None
+
+
+def _say_how_to_go_on(last: "Watched | None") -> None:
+    """Say how a run that was stopped is continued."""
+    from bbsd.runs.storage.finished import way_on
+
+    if last is not None and last.state == "stopped":
+        say(way_on(last.folder))
 
 
 @contextmanager
