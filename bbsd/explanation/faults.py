@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from math import nan
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +13,7 @@ import numpy.typing as npt
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import Agents, Interval, RewardNotFinite, agents_of, interval, returns_of
 from bbsd.evaluation.faults import faulty_meaning
+from bbsd.evaluation.frames import frame
 from bbsd.evaluation.sums import mean, row_means
 from bbsd.explanation.worth.orders import tried_orders
 from bbsd.explanation.worth.results import clearly_above
@@ -60,7 +62,7 @@ class Degradation:
     relearned: Relearned | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Degradations:
     """What a design earns undisturbed, and under each fault alone."""
 
@@ -69,6 +71,26 @@ class Degradations:
     """Highest layer first."""
     faults: tuple[Degradation, ...]
     random_tables: int
+
+    def to_frame(self) -> Any:  # noqa: ANN401 - pandas is optional
+        """Return a pandas DataFrame with a row for each fault; `gain` is that of an order learned again.
+
+        Raises NoPandas where pandas is not installed.
+        """
+        changes = [each.change for each in self.faults]
+        gains = [nan if each.relearned is None else each.relearned.gain.mean for each in self.faults]
+        columns: dict[str, Sequence[object]] = {
+            "fault": [each.fault.text for each in self.faults],
+            "return": [each.returns.mean for each in self.faults],
+            "change": [change.mean for change in changes],
+            "low": [change.low for change in changes],
+            "high": [change.high for change in changes],
+            "gain": gains,
+        }
+        return frame(columns, index="fault")
+
+    def __repr__(self) -> str:
+        return f"<Degradations: mean return {self.returns.mean:.6g}, {len(self.faults)} faults>"
 
 
 @dataclass(frozen=True)

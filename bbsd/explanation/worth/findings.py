@@ -81,7 +81,7 @@ class _Judge:
         """Judge a rule, unless it is all that a behavior has, or that can be removed as a whole."""
         if rule.dropped is None or len(worth.rules) < 2 or self.is_removable(worth.dropped):
             return
-        named, change = f"{worth.behavior}: the rule {rule_text(rule)}", self.change(rule.dropped)
+        named, change = f"{worth.behavior}: the rule {rule.text}", self.change(rule.dropped)
         if clearly_above(rule.dropped):
             if not clearly_above(worth.dropped):
                 yield Finding("harmful rule", (worth.behavior,), f"{named} does harm, without it {change}")
@@ -131,8 +131,3 @@ def _of_robots(pair: RobotsAlike) -> Finding:
 
 def _percent(share: float) -> str:
     return f"{100 * share:.1f} %"
-
-
-def rule_text(rule: RuleWorth) -> str:
-    """Return a rule in words: `push where place is low`, `push otherwise`."""
-    return f"{rule.decision} {f'where {rule.where}' if rule.where else 'otherwise'}"

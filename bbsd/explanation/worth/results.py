@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from math import isfinite, sqrt
+from dataclasses import dataclass
+from math import isfinite, nan, sqrt
 from typing import TYPE_CHECKING, Any, Literal
 
+from bbsd.evaluation.frames import frame
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
@@ -53,6 +54,11 @@ class RuleWorth:
     def acts(self) -> bool:
         """Whether its decision is an action."""
         return self.decision != NO_ACTION_TEXT
+
+    @property
+    def text(self) -> str:
+        """The rule in words: `push where place is low`, `push otherwise`."""
+        return f"{self.decision} {f'where {self.where}' if self.where else 'otherwise'}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,9 +185,25 @@ class Worth:
     findings: tuple[Finding, ...]
     left_out: tuple[str, ...] = ()
 
-    def to_plain(self) -> dict[str, Any]:
-        """Return the worth as plain data for JSON."""
-        return asdict(self)
+    def to_frame(self) -> Any:  # noqa: ANN401 - pandas is optional
+        """Return a pandas DataFrame with a row for each behavior, and one for each of its rules.
+
+        Raises NoPandas where pandas is not installed.
+        """
+        rows = [
+            (each.layer, each.behavior, rule, control, earned, change)
+            for each in self.behaviors
+            for rule, control, earned, change in (
+                ("", each.control, each.own, each.dropped),
+                *((rule.text, rule.control, nan, rule.dropped) for rule in each.rules),
+            )
+        ]
+        changes = [
+            (nan, nan, nan) if row[-1] is None else (row[-1].mean, row[-1].low, row[-1].high) for row in rows
+        ]
+        names = ("layer", "behavior", "rule", "control", "earned", "dropped", "low", "high")
+        columns = zip(*((*row[:-1], *change) for row, change in zip(rows, changes, strict=True)), strict=True)
+        return frame(dict(zip(names, map(list, columns), strict=True)))
 
     def __repr__(self) -> str:
         return f"<Worth of {self.name}: {len(self.behaviors)} behaviors, mean return {self.returns.mean:.6g}>"

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation, Trace
     from bbsd.explanation import Explanation
     from bbsd.explanation.comparison import Comparison
+    from bbsd.explanation.faults import Degradations
     from bbsd.explanation.why import Answer
     from bbsd.explanation.worth import Worth
     from bbsd.runs.storage.watching import Watched
@@ -51,6 +52,12 @@ def _worth(worth: Worth) -> str:
     from bbsd.report.worth import worth_table
 
     return html_of(worth_table(worth))
+
+
+def _faults(found: Degradations) -> str:
+    from bbsd.report.faults import faults_table
+
+    return html_of(faults_table(found))
 
 
 def _explanation(explanation: Explanation) -> str:
@@ -94,6 +101,7 @@ FORMATTERS: dict[str, Callable[[Any], str]] = {
     "bbsd.explanation.why.answer.Answer": _answer,
     "bbsd.explanation.comparison.results.Comparison": _comparison,
     "bbsd.explanation.worth.results.Worth": _worth,
+    "bbsd.explanation.faults.Degradations": _faults,
     "bbsd.runs.storage.watching.Watched": _watched,
 }
 """By the module and name of a type, what makes HTML of its values."""

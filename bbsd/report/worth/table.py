@@ -8,7 +8,6 @@ from rich.console import Group
 from rich.text import Text
 
 from bbsd.errors import escape
-from bbsd.explanation.worth.findings import rule_text
 from bbsd.explanation.worth.results import clearly_above, clearly_below, never_changes
 from bbsd.report.numbers import column, count, percent, with_halves
 from bbsd.report.tables import INTERVAL, plain_table
@@ -117,7 +116,7 @@ def _rules(worth: Worth) -> Table:
         if not rules:
             table.add_row(Text(f"  {none[behavior]}", "dim"))
         for rule in rules:
-            named = Text(escape(f"  {rule_text(rule)}"), "" if rule.acts else "dim")
+            named = Text(escape(f"  {rule.text}"), "" if rule.acts else "dim")
             table.add_row(
                 named, percent(rule.control) if rule.acts else "", next(texts) if rule.dropped else ""
             )

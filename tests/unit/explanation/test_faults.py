@@ -91,3 +91,13 @@ def test_one_layer_has_no_other_order():
     text = planted().replace("[guard, grab, work]", "[work]")
     (each,) = found_with(problem_of(text), "behavior=work:silent", relearn=True).faults
     assert each.relearned is None
+
+
+def test_a_frame_has_a_row_for_each_fault(problem):
+    pytest.importorskip("pandas")
+    found = found_with(problem, "all", relearn=True)
+    table = found.to_frame()
+    assert list(table.index) == [each.fault.text for each in found.faults]
+    assert table["change"].tolist() == [each.change.mean for each in found.faults]
+    assert table["gain"].tolist() == [each.relearned.gain.mean for each in found.faults]
+    assert repr(found) == f"<Degradations: mean return {found.returns.mean:.6g}, 3 faults>"

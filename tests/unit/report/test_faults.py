@@ -13,7 +13,7 @@ from bbsd.report.plain import json_text
 from tests.unit.explanation.worth.planted import planted
 from tests.unit.problems import problem_of
 
-TEXTS = ["behavior=grab:silent", "behavior=work:random", "robot=0:dead@5"]
+TEXTS = ["behavior=grab:silent", "behavior=work:random", "behavior=guard:stuck@5"]
 
 
 @pytest.fixture(scope="module")
@@ -34,8 +34,15 @@ def test_a_table_has_a_row_for_each_fault(found):
     assert float(silent[3]) == pytest.approx(found.faults[0].change.mean, abs=1e-3)
     assert "random: the mean over 25 random tables" in first
     assert again.startswith("order learned again around")
-    assert "behavior=work:random: " in again
-    assert "as it was" in again
+    for each in found.faults:
+        (row,) = (line for line in again.splitlines() if line.startswith(f"{each.fault.text} "))
+        if each.relearned.structure == found.structure:
+            assert row.endswith("as it was")
+        else:
+            assert f"{each.fault.text}: {' '.join(each.relearned.structure)}" in again
+    kept = [each.relearned.structure == found.structure for each in found.faults]
+    assert any(kept)
+    assert not all(kept)
 
 
 def test_programs_get_all_of_it(found):

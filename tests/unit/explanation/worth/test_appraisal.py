@@ -107,3 +107,17 @@ def test_the_same_seed_gives_the_same_worth_and_progress_is_told(worth, appraisa
     assert again.worth(lambda *parts: told.append(parts)) == worth
     total = len(appraisal.layers) + 5
     assert told == [(part, total) for part in range(1, total + 1)]
+
+
+def test_a_frame_has_a_row_for_each_behavior_and_rule(worth):
+    pytest.importorskip("pandas")
+    table = worth.to_frame()
+    assert list(table.columns) == ["layer", "behavior", "rule", "control", "earned", "dropped", "low", "high"]
+    assert len(table) == sum(1 + len(each.rules) for each in worth.behaviors)
+    behaviors = table[table["rule"] == ""]
+    assert behaviors["dropped"].tolist() == [each.dropped.mean for each in worth.behaviors]
+    assert behaviors["earned"].sum() + sum(worth.nobody.values()) == pytest.approx(worth.returns.mean)
+    assert (
+        repr(worth)
+        == f"<Worth of rich: {len(worth.behaviors)} behaviors, mean return {worth.returns.mean:.6g}>"
+    )
