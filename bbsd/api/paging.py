@@ -4,40 +4,41 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.api.appraising import faults as degradations
 from bbsd.api.appraising import worth
 from bbsd.api.comparing import compare
-from bbsd.api.compiling import located_reward_errors
 from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
 from bbsd.api.specs import AnySpec, load
 from bbsd.api.tracing import EPISODES_OF_DESIGN
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import agents_of, chosen_episode, detailed_outcomes, evaluation, trace
+from bbsd.evaluation import chosen_episode, trace
 from bbsd.evaluation.choosing import RANKS
 from bbsd.evaluation.faults import ALL, read_faults
 from bbsd.evaluation.situations import TooLongToWatch
-from bbsd.evaluation.streams import episode_key, evaluation_keys
+from bbsd.evaluation.streams import episode_key
 from bbsd.runs.storage.folder import Folder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
+    import numpy as np
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture
-    from bbsd.compiler import DetailedOutcome, Problem
+    from bbsd.compiler import Problem
     from bbsd.evaluation import Evaluation, Interval, Rank, Trace
+    from bbsd.evaluation.spread import EachEpisode
     from bbsd.explanation import Explanation
     from bbsd.explanation.comparison import Comparison
     from bbsd.explanation.faults import Degradations
     from bbsd.explanation.worth import Worth
     from bbsd.language.loading import Loaded
+
+    Progress = Callable[[int, int], None]
 
 FEWER_EPISODES = 200
 """Episodes at most of the worth of a design and of its faults: dozens of changes run them all."""
@@ -106,7 +107,7 @@ def page(
     episodes: int = EPISODES_OF_DESIGN,
     faults: Sequence[str] = (),
     overrides: Sequence[str] = (),
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Page:
     """Gather what a page on a design shows; `bbsd.report.page.page_text` makes the page of it.
 
@@ -117,7 +118,7 @@ def page(
         episodes: Number of episodes of the evaluation, as in `evaluate`.
         faults: Texts such as "robot=1:dead", as in `bbsd.faults`; every behavior silent is always shown.
         overrides: Values that replace those of the spec.
-        progress: Called from time to time with the numbers of finished and of all episodes.
+        progress: Called from time to time with the part that is done, in percent, and 100.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -130,20 +131,9 @@ def page(
     read_faults(wanted, loaded.meaning)
     problem = compile_meaning(loaded.meaning)
     architecture = given_architecture(problem)
-    returns: list[NDArray[np.float64]] = []
-
-    def reported(outcomes: Iterator[DetailedOutcome]) -> Iterator[DetailedOutcome]:
-        for outcome in outcomes:
-            returns.append(outcome.returns)
-            if progress is not None:
-                progress(sum(map(len, returns)), episodes)
-            yield outcome
-
-    generation, streams = loaded.spec.design.coevolution.generations, evaluation_keys(seed, episodes)
-    with located_reward_errors(loaded):
-        outcomes = detailed_outcomes(problem, agents_of([architecture]), streams, generation)
-        measured = evaluation(problem, reported(outcomes), 1)
-    earned, few = np.concatenate(returns), min(max(2, episodes), FEWER_EPISODES)
+    generation, few = loaded.spec.design.coevolution.generations, min(max(2, episodes), FEWER_EPISODES)
+    measured = evaluate(loaded, episodes=episodes, seed=seed, keep_each=True, progress=_part(progress, 0, 20))
+    earned = cast("EachEpisode", measured.each).returns
     return Page(
         name=_name(design),
         loaded=loaded,
@@ -153,8 +143,8 @@ def page(
         returns=earned,
         replays=_replays(problem, architecture, earned, seed, generation),
         run=_run(design, seed),
-        worth=_worth(loaded, seed, few),
-        faults=degradations(loaded, wanted, seed=seed, episodes=few),
+        worth=_worth(loaded, seed, few, _part(progress, 20, 70)),
+        faults=degradations(loaded, wanted, seed=seed, episodes=few, progress=_part(progress, 70, 100)),
         comparison=None
         if other is None
         else compare(loaded, other, episodes=max(2, episodes), seed=seed, overrides=overrides),
@@ -163,6 +153,13 @@ def page(
         overrides=tuple(overrides),
         wanted_faults=tuple(faults),
     )
+
+
+def _part(progress: Progress | None, first: int, last: int) -> Progress | None:
+    """Return what reports the progress of a part of the work, from a percentage of the whole to another one."""
+    if progress is None:
+        return None
+    return lambda done, total: progress(first + (last - first) * done // max(total, 1), 100)
 
 
 def _name(design: AnySpec) -> str:
@@ -187,9 +184,9 @@ def _replays(
     return tuple(replays)
 
 
-def _worth(loaded: Loaded, seed: int, episodes: int) -> Worth | None:
+def _worth(loaded: Loaded, seed: int, episodes: int, progress: Progress | None) -> Worth | None:
     try:
-        return worth(loaded, episodes=episodes, seed=seed)
+        return worth(loaded, episodes=episodes, seed=seed, progress=progress)
     except TooLongToWatch:
         return None
 

@@ -46,7 +46,7 @@ def report(
     require_writable_file(output)
     from bbsd.report.progress import episode_listener
 
-    with episode_listener(error_console()) as listener:
+    with episode_listener(error_console(), "%") as listener:
         page = bbsd.page(
             design,
             other,

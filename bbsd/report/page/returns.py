@@ -50,6 +50,6 @@ def _interval(interval: Interval) -> dict[str, Plain]:
 def histogram_plain(returns: NDArray[np.float64]) -> dict[str, Plain]:
     """Return the numbers of episodes (n_bins,) between edges (n_bins + 1,)."""
     low, high = float(returns.min()), float(returns.max())
-    margin = 0.5 * max(abs(low), 1.0) * 1e-3 if low == high else 0.0
+    margin = 0.5 * max(abs(low), 1.0) if low == high else 0.0
     counts, edges = np.histogram(returns, bins=BINS if high > low else 1, range=(low - margin, high + margin))
     return {"counts": counts.tolist(), "edges": [shortened(edge) for edge in edges.tolist()]}

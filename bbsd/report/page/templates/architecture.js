@@ -79,7 +79,7 @@ function sensorBoxes() {
   });
   return {
     boxes,
-    column: element("div", { class: "side sensors" }, element("h3", {}, "Sensors"), element("ul", {}, ...boxes.map((box) => box.item))),
+    column: element("div", { class: "side sensors" }, element("h3", {}, "Sensors"), boxes.length ? element("ul", {}, ...boxes.map((box) => box.item)) : "none"),
     update() {
       for (const box of boxes) {
         const [behavior, index] = box.users[0];

@@ -18,7 +18,7 @@ function head() {
     DATA.summary ? element("p", { class: "summary" }, DATA.summary) : "",
     earned(),
     findings([...(DATA.worth?.findings ?? []), ...DATA.useless]),
-    element("p", { class: "note" }, `${behaviors}. Measured in ${counted(DATA.earns.episodes, "new episode")} of ${number(DATA.earns.steps, 3)} steps on average.`));
+    element("p", { class: "note" }, `${behaviors}. Measured in ${counted(DATA.earns.episodes, "new episode")}, of ${number(DATA.earns.steps, 4)} ${DATA.earns.steps === 1 ? "step" : "steps"} on average.`));
 }
 
 function replaySection() {
