@@ -11,12 +11,13 @@ import typer
 
 from bbsd.cli.budget import read_budget, read_seeds
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
-from bbsd.cli.output import error_console, leave_now, say, show, show_table
+from bbsd.cli.output import error_console, leave_now, require_writable_file, say, show, show_table
 from bbsd.report.figures import draw_curves, require_figure
+from bbsd.report.numbers import number
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from contextlib import AbstractContextManager
 
     from bbsd.api import Designed, Interrupted
@@ -82,8 +83,29 @@ def design(
     ] = 1,
     overrides: Overrides = None,
     plot: Annotated[
-        bool, typer.Option("--plot", help="Also draw fitness and diversity over the generations: curves.png.")
+        bool,
+        typer.Option(
+            "--plot",
+            help="Also draw the search: the best so far, or fitness and diversity; in the folder as curves.png.",
+        ),
     ] = False,
+    plot_to: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.png",
+            help="Draw the search into this file, as .png, .svg or .pdf.",
+            show_default=False,
+        ),
+    ] = None,
+    plot_beside: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DESIGN",
+            help="With --plot or --plot-to: a design to compare with, such as one made by hand; its mean return is a "
+            "line.",
+            show_default=False,
+        ),
+    ] = None,
     tensorboard: Annotated[
         Path | None,
         typer.Option(
@@ -117,8 +139,7 @@ def design(
     from bbsd.language.loading import load
     from bbsd.text import Source
 
-    if plot:
-        require_figure(Path(CURVES))
+    _require_figures(plot, plot_to, plot_beside, seed)
     _make_folder(tensorboard)
     set_by_budget, within = read_budget(budget)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
@@ -138,7 +159,7 @@ def design(
         from bbsd.report.progress import generation_listener
 
         if dry_run:
-            starting = time.process_time() + (DRAWING if plot else 0.0)
+            starting = time.process_time() + (DRAWING if plot or plot_to else 0.0)
             price = api.price(loaded, seed=seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting)
             _show_price(price, as_json=as_json)
             return
@@ -187,9 +208,27 @@ def design(
     if within is not None:
         say("a budget by time cannot be reproduced: the same command may give another design")
     _show(designed, seed, runs, as_json=as_json)
-    if plot:
-        _draw_curves(designed)
+    figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
+    if figures:
+        _draw_curves(designed, loaded.spec.name, seed, plot_beside, figures)
     _write_events(designed, tensorboard)
+
+
+def _require_figures(plot: bool, plot_to: Path | None, beside: Path | None, seed: int) -> None:
+    """Find out before the search whether its figures can be drawn, and what they compare it with evaluated."""
+    if plot:
+        require_figure(Path(CURVES))
+    if plot_to:
+        require_figure(plot_to)
+        require_writable_file(plot_to)
+    if beside is None:
+        return
+    if not (plot or plot_to):
+        raise typer.BadParameter("--plot-beside needs --plot or --plot-to")
+    from bbsd.api.specs import load
+    from bbsd.architecture import architecture_of
+
+    architecture_of(load(beside, seed=seed).meaning)
 
 
 def _show_seeds(several: "Mapping[int, Designed]", *, as_json: bool) -> None:
@@ -259,11 +298,21 @@ def _resume_command(folder: Path) -> str:
     return shlex.join(["bbsd", *given, *([] if named else ["--out", str(folder)]), "--resume"])
 
 
-def _draw_curves(designed: "Designed") -> None:
-    """Draw the metrics into their folder, after the result is shown: matplotlib takes longer than a small design."""
+def _draw_curves(
+    designed: "Designed", name: str, seed: int, beside: Path | None, figures: "Sequence[Path]"
+) -> None:
+    """Draw the metrics, after the result is shown: matplotlib takes longer than a small design."""
+    from bbsd import api
     from bbsd.runs.storage.folder import Folder
 
-    draw_curves(Folder(designed.folder).lines(), designed.folder / CURVES)
+    returns = {"random agents": designed.random.mean}
+    if beside is not None:
+        compared = api.load(beside, seed=seed)
+        returns[compared.spec.name] = api.evaluate(compared, seed=seed).mean
+    title = f"{name}, seed {seed}: the design earns {number(designed.mean)}"
+    lines = Folder(designed.folder).lines()
+    for path in figures:
+        draw_curves(lines, path, title=title, beside=returns)
 
 
 def _make_folder(folder: Path | None) -> None:

@@ -12,7 +12,7 @@ from bbsd.cli.output import error_console, has_blocks, require_writable_file, sa
 from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
 from bbsd.files import write_text_whole
-from bbsd.report.figures import draw_episode, require_figure
+from bbsd.report.figures import draw_episode, names_to_show, require_figure, require_names
 from bbsd.report.plain import evaluation_plain, json_text
 
 if TYPE_CHECKING:
@@ -94,6 +94,15 @@ def evaluate(
             "--plot-to", "--plot", metavar="FILE.png", help="Draw the episode, as .png, .svg or .pdf."
         ),
     ] = None,
+    values: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--show",
+            metavar="NAME",
+            help="A value that --plot shows: a state, world, sensor or definition, or reward; may be repeated.",
+            show_default="state, world, sensors that are the same for all robots, reward",
+        ),
+    ] = None,
     fault: Annotated[
         list[str] | None,
         typer.Option(
@@ -131,6 +140,7 @@ def evaluate(
     loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
     if expect_at_least is not None:
         _require_expectations(loaded)
+    require_names(values or (), names_to_show(loaded.spec))
     if fault:
         show_faults(
             loaded, fault, episodes or 1000, seed, at_least, lanes, jobs, relearn=relearn, as_json=as_json
@@ -152,13 +162,14 @@ def evaluate(
             keep_each=returns is not None,
         )
     _show(evaluation, as_json=as_json)
-    if returns and evaluation.each is not None:
-        from bbsd.report.csv_text import returns_text
-
-        write_text_whole(returns, returns_text(evaluation.each), through_links=True)
+    _write_returns(evaluation, returns)
     if trace or plot:
         number = chosen if isinstance(chosen, int) else _number_of(chosen, evaluation)
-        _write_episode(bbsd.trace(loaded, seed=seed, episode=number), loaded, trace, trace_format, plot)
+        traced = bbsd.trace(loaded, seed=seed, episode=number)
+        if trace:
+            _write_trace(traced, trace, trace_format)
+        if plot:
+            draw_episode(traced, loaded.spec, plot, episode=number, show=values or ())
     failures = [*too_low(evaluation.mean, at_least), *_too_rare(evaluation, expect_at_least)]
     for failure in failures:
         say(failure)
@@ -188,16 +199,17 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
     show_table(evaluation_table(evaluation, blocks=has_blocks()))
 
 
-def _write_episode(
-    traced: "Trace", loaded: "Loaded", trace: Path | None, trace_format: TraceFormat, plot: Path | None
-) -> None:
-    if trace:
-        from bbsd.report.csv_text import csv_text
+def _write_returns(evaluation: "Evaluation", path: Path | None) -> None:
+    if path and evaluation.each is not None:
+        from bbsd.report.csv_text import returns_text
 
-        text = csv_text(traced, long=trace_format is TraceFormat.LONG)
-        write_text_whole(trace, text, through_links=True)
-    if plot:
-        draw_episode(traced, loaded.spec, plot)
+        write_text_whole(path, returns_text(evaluation.each), through_links=True)
+
+
+def _write_trace(traced: "Trace", path: Path, form: TraceFormat) -> None:
+    from bbsd.report.csv_text import csv_text
+
+    write_text_whole(path, csv_text(traced, long=form is TraceFormat.LONG), through_links=True)
 
 
 def _number_of(rank: "Rank", evaluation: "Evaluation") -> int:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from bbsd.report.figures.files import color, legend, marker, panels_in_file
+from bbsd.report.figures.files import color, label_ends, legend, marker, panels_in_file
+from bbsd.report.numbers import number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -14,6 +16,13 @@ if TYPE_CHECKING:
 
     Line = Mapping[str, Any]
 
+WIDTH = 7.5
+"""In inches."""
+MOST_BESIDE = 10
+"""Pools whose names stand beside the panel of their diversity; of more they stand below it."""
+FARTHEST = 0.75
+"""How far a return to compare with may be from the curves, in heights of the panel."""
+
 FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("best", "best agent", {"color": "#999999", "linewidth": 1.0}),
     ("mean", "mean of the agents", {"color": color(0), "linewidth": 1.8}),
@@ -22,23 +31,57 @@ FITNESS: tuple[tuple[str, str, dict[str, Any]], ...] = (
 """Key in the metrics, label and style. As in the paper, solid is the fitness (14), dashed that of whole lifetimes."""
 
 
-def draw_curves(metrics: Sequence[Line], path: Path) -> None:
+def draw_curves(
+    metrics: Sequence[Line], path: Path, *, title: str = "", beside: Mapping[str, float] | None = None
+) -> None:
     """Draw the lines of `metrics.jsonl`: fitness above, and the diversity of each behavior's pool below.
 
     Of a search that has no generations the best so far is drawn, over the episodes. With several runs, a curve is
-    their mean, and the mean fitness of each run is drawn faintly.
+    their mean, and the mean fitness of each run is drawn faintly. `beside` are mean returns to compare with, by name:
+    each is a line across, or a note at the border where it is far from all curves.
 
     Raises:
         FigureError: the kind of file is unknown.
         OSError: the file cannot be written.
     """
     if any("generation" not in line for line in metrics):
-        with panels_in_file(path, 7.5, [3.4]) as (panel,):
+        with panels_in_file(path, WIDTH, [3.4], title) as (panel,):
             _draw_best_so_far(panel, metrics)
+            _draw_beside(panel, beside or {})
+            _name_lines(panel)
         return
-    with panels_in_file(path, 7.5, [3.4, 1.8]) as (fitness, diversity):
+    pools = list(metrics[0]["diversity"]) if metrics else []
+    heights = [3.4, 1.8 + _legend_height(pools)]
+    with panels_in_file(path, WIDTH, heights, title) as (fitness, diversity):
         _draw_fitness(fitness, metrics)
+        _draw_beside(fitness, beside or {})
+        _name_lines(fitness)
         _draw_diversity(diversity, metrics)
+
+
+def _name_lines(panel: Axes) -> None:
+    """Put the names of lines where they cover least."""
+    if panel.get_legend_handles_labels()[1]:
+        panel.legend(loc="best", frameon=True, framealpha=0.85, edgecolor="none")
+
+
+def _draw_beside(panel: Axes, beside: Mapping[str, float]) -> None:
+    """Draw returns to compare with across a panel; where one is so far that curves would be flat, name it only."""
+    low, high = panel.get_ylim()
+    span = high - low
+    shown, notes = list[tuple[str, float]](), list[str]()
+    for name, value in beside.items():
+        if not isfinite(value):
+            continue
+        text = f"{name} {number(value)}"
+        if low - FARTHEST * span <= value <= high + FARTHEST * span:
+            panel.axhline(value, color="#666666", lw=0.9, ls=(0, (2, 2)), zorder=1.5)
+            shown.append((text, value))
+        else:
+            notes.append(f"{text}, {'far below' if value < low else 'far above'}")
+    if notes:
+        panel.set_title("; ".join(notes), fontsize=8, color="#666666", loc="right")
+    label_ends(panel, shown, 3.0)
 
 
 def _draw_best_so_far(panel: Axes, metrics: Sequence[Line]) -> None:
@@ -58,7 +101,6 @@ def _draw_best_so_far(panel: Axes, metrics: Sequence[Line]) -> None:
             marker="o",
         )
     panel.set(xlabel="episodes", ylabel="mean return in new episodes")
-    legend(panel)
 
 
 def _draw_fitness(panel: Axes, metrics: Sequence[Line]) -> None:
@@ -69,7 +111,6 @@ def _draw_fitness(panel: Axes, metrics: Sequence[Line]) -> None:
         generations, values = _points(metrics, (key,))
         panel.plot(generations, values, label=label, marker=marker(len(values)), **style)
     panel.set_ylabel("fitness" if len(runs) < 2 else f"fitness, mean of {len(runs)} runs")
-    legend(panel)
 
 
 def _draw_diversity(panel: Axes, metrics: Sequence[Line]) -> None:
@@ -81,7 +122,23 @@ def _draw_diversity(panel: Axes, metrics: Sequence[Line]) -> None:
     panel.set(xlabel="generation", ylabel="diversity")
     panel.set_ylim(bottom=0)
     panel.locator_params(axis="x", integer=True)
-    legend(panel)
+    names = panel.get_legend_handles_labels()[1]
+    if len(names) <= MOST_BESIDE:
+        legend(panel)
+    else:
+        columns, _ = _legend_shape(names)
+        panel.legend(loc="upper center", bbox_to_anchor=(0.5, -0.3), ncols=columns, fontsize=7)
+
+
+def _legend_shape(names: Sequence[str]) -> tuple[int, int]:
+    """Return the columns and lines of a legend below a panel."""
+    columns = max(1, int(WIDTH * 14) // (max(map(len, names)) + 7))
+    return columns, -(-len(names) // columns)
+
+
+def _legend_height(names: Sequence[str]) -> float:
+    """Return the height in inches of the legend below the panel of diversity; none where it is beside it."""
+    return 0.0 if len(names) <= MOST_BESIDE else 0.2 + 0.16 * _legend_shape(names)[1]
 
 
 def _points(

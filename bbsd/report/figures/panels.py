@@ -1,126 +1,142 @@
-"""Panels of an episode over its steps: values, and the behaviors in control."""
+"""Panels of an episode over its steps: values, and the reinforcement."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from bbsd.report.figures.files import color, marker
+import numpy as np
+
+from bbsd.report.figures.files import color, label_ends, marker
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from bbsd.evaluation import Trace
-    from bbsd.expression.node_data import Slot
-    from bbsd.language.models import Spec
+    from bbsd.report.figures.choice import ValuePanel
 
-    Lines = dict[str, list[float]]
-    Stretches = dict[str, list[tuple[float, float]]]
+    Floats = npt.NDArray[np.float64]
 
-NOBODY = "nobody"
-MAX_PANELS = 8
-ROBOT_STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1.5, 1, 1.5)))
+ROBOT_STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)))
 GRAYS = ("#222222", "#6a6a6a", "#9a9a9a")
-"""Styles and grays that distinguish robots where colors stand for behaviors."""
-CROSS: Mapping[str, Any] = {"ls": "", "marker": "x", "ms": 3.5}
-OUTLINE_AND_INK: tuple[Any, ...] = ({"color": "#ffffff", "mew": 1.8}, {"color": "#222222", "mew": 0.8})
-"""The pens of a cross: first a light outline, then dark ink, so that it is visible on every color."""
+"""Styles and grays that distinguish lines where colors stand for behaviors."""
+MOST_IN_GRAY, MOST_IN_COLOR = len(GRAYS), 8
+"""Curves that are drawn as lines; of more each is a strip, dark where the value is high."""
+MOST_TERMS = 6
+"""Reward terms that have a line of their own."""
+INK = "#222222"
 
 
-def panels_of(trace: Trace, spec: Spec) -> dict[str, Lines]:
-    """Return the lines of each panel by label; a value that all robots share has one line, without a label."""
-    environment = spec.environment
-    own = {name: lines for name in environment.state if (lines := _lines(trace, name))}
-    common = {name: _common(trace, name) for name in (*environment.world, *environment.sensors)}
-    return {**own, **{name: {"": line} for name, line in common.items() if line}}
+def is_strip(panel: ValuePanel, *, in_gray: bool) -> bool:
+    """Return whether a value has too many curves for lines."""
+    return len(panel.curves) > (MOST_IN_GRAY if in_gray else MOST_IN_COLOR)
 
 
-def _lines(trace: Trace, name: str) -> Lines:
-    """Return the values of a name by robot and element; none if they are cells of a partition."""
-    return {
-        _label(slot, trace.robots): [float(value) for value in values]
-        for slot, values in trace.values.items()
-        if slot.name == name and not any(isinstance(value, str) for value in values)
-    }
+def draw_values(panel: Axes, shown: ValuePanel, *, in_gray: bool = False) -> None:
+    """Draw a value as lines in the robots' colors, or in gray where colors stand for behaviors; as strips if many.
+
+    Whole numbers, truths and cells are steps: they hold until they change.
+    """
+    if is_strip(shown, in_gray=in_gray):
+        _draw_strips(panel, shown)
+    else:
+        _draw_lines(panel, shown, in_gray=in_gray)
+    panel.set_title(shown.title)
 
 
-def _label(slot: Slot, robots: int) -> str:
-    robot = f"robot {slot.robot}" if slot.robot is not None and robots > 1 else ""
-    return robot + "".join(f"[{index}]" for index in slot.place)
-
-
-def _common(trace: Trace, name: str) -> list[float]:
-    """Return the values of a name if they are equal for all robots; none for truth values, which are 0 and 1."""
-    lines = list(_lines(trace, name).values())
-    if not lines or any(line != lines[0] for line in lines) or {*lines[0]} <= {0.0, 1.0}:
-        return []
-    return lines[0]
-
-
-def draw_lines(panel: Axes, trace: Trace, name: str, lines: Lines, *, in_gray: bool = False) -> None:
-    """Draw the lines of a value, in the robots' colors, or in gray where colors stand for behaviors."""
-    for index, (label, values) in enumerate(lines.items()):
-        line_color = "#333333" if not label else GRAYS[index % len(GRAYS)] if in_gray else color(index)
-        style, width = (ROBOT_STYLES[index % len(ROBOT_STYLES)], 1.0) if in_gray else ("-", None)
+def _draw_lines(panel: Axes, shown: ValuePanel, *, in_gray: bool) -> None:
+    for index, curve in enumerate(shown.curves):
+        line_color = GRAYS[index % len(GRAYS)] if in_gray else color(index)
         panel.plot(
-            trace.steps, values, label=label, color=line_color, ls=style, marker=marker(len(values)), lw=width
+            range(len(curve.values)),
+            curve.values,
+            label=curve.label,
+            color=INK if not curve.label else line_color,
+            ls=ROBOT_STYLES[index % len(ROBOT_STYLES)] if in_gray else "-",
+            lw=1.0 if in_gray else None,
+            drawstyle="default" if shown.kind == "number" else "steps-mid",
+            marker=marker(len(curve.values)),
         )
-    distinct = {value for values in lines.values() for value in values}
-    if in_gray and distinct <= {0.0, 1.0}:
-        panel.set(ylim=(-0.15, 1.15), yticks=(0, 1))
-    panel.set_title(name)
+    names = {"truth": ("false", "true"), "cell": shown.cells}.get(shown.kind)
+    if names:
+        panel.set(ylim=(-0.15, len(names) - 0.85))
+        panel.set_yticks(range(len(names)), names)
+    elif shown.kind == "whole":
+        panel.locator_params(axis="y", integer=True)
 
 
-def behavior_rows(trace: Trace, spec: Spec) -> list[str]:
-    """Return the behaviors that can be in control, highest layer first, then nobody if that happened."""
-    behaviors = [name for name in spec.structure or spec.behaviors if name in spec.behaviors]
-    in_control = {name for robot in trace.controlling for name in robot}
+def _draw_strips(panel: Axes, shown: ValuePanel) -> None:
+    """Draw a strip for each curve, one below the other, and a scale beside them."""
+    values = np.array([curve.values for curve in shown.curves])
+    n_curves, n_moments = values.shape
+    image = panel.imshow(
+        values,
+        aspect="auto",
+        interpolation="nearest",
+        cmap="Greys",
+        extent=(-0.5, n_moments - 0.5, n_curves - 0.5, -0.5),
+    )
+    panel.grid(visible=False)
+    every = -(-n_curves // 8)
+    rows = range(0, n_curves, every)
+    panel.set_yticks(rows, [shown.curves[row].label.removeprefix("robot ") for row in rows], fontsize=7)
+    panel.set_ylabel("robot" if shown.curves[0].label.startswith("robot") else "", fontsize=7.5)
+    scale = panel.inset_axes((1.015, 0.0, 0.018, 1.0))
+    bar = panel.get_figure(root=True).colorbar(image, cax=scale)  # type: ignore[union-attr]  # it is in one
+    bar.ax.tick_params(labelsize=7, length=2)
+    if shown.kind in ("truth", "cell"):
+        names = ("false", "true") if shown.kind == "truth" else shown.cells
+        bar.set_ticks(range(len(names)), labels=names)
+        image.set_clim(0, len(names) - 1)
+    elif shown.kind == "whole":
+        bar.locator = _whole_locator()
+        bar.update_ticks()
+
+
+def _whole_locator() -> Any:  # noqa: ANN401 - as matplotlib types locators
+    from matplotlib.ticker import MaxNLocator
+
+    return MaxNLocator(nbins=4, integer=True)
+
+
+def earned_so_far(trace: Trace) -> dict[str, Floats]:
+    """Return what each reward term has given up to each step, the mean over robots, and their sum as `return`.
+
+    Of many terms those that gave most are named, and the others are summed.
+    """
+    terms = {name: np.mean(robots, axis=0) for name, robots in trace.rewards.items()}
+    order = sorted(terms, key=lambda name: -float(np.abs(np.nan_to_num(terms[name])).sum()))
+    named = order if len(order) <= MOST_TERMS else order[: MOST_TERMS - 1]
+    lines = {name: terms[name] for name in terms if name in named}
+    if others := [terms[name] for name in terms if name not in named]:
+        lines[f"{len(others)} other terms"] = np.sum(others, axis=0)
+    lines["return"] = np.sum([*terms.values()], axis=0) if terms else np.zeros(len(trace.steps))
+    return {name: np.concatenate([[0.0], np.cumsum(gains)]) for name, gains in lines.items()}
+
+
+def draw_reward(panel: Axes, trace: Trace, height: float) -> None:
+    """Draw what was earned up to each step, as a whole and by reward term; the panel's height in inches."""
+    lines = earned_so_far(trace)
+    if len(lines) == 2:
+        del lines[next(iter(lines))]
+    shades = dict(zip(lines, _shades(len(lines) - 1), strict=False))
+    for name, values in lines.items():
+        is_sum = name == "return"
+        panel.plot(
+            range(len(values)),
+            values,
+            color=INK if is_sum else shades[name],
+            lw=1.8 if is_sum else 0.9,
+            ls="-" if is_sum else (0, (4, 1.5)),
+            zorder=3 if is_sum else 2,
+        )
+    panel.set_title("earned so far" if len(lines) == 1 else "earned so far, by reward term")
+    label_ends(panel, [(name, float(values[-1])) for name, values in lines.items()], height)
+
+
+def _shades(count: int) -> Sequence[str]:
     return [
-        *behaviors,
-        *sorted(in_control - {*behaviors, NOBODY}),
-        *([NOBODY] if NOBODY in in_control else []),
+        f"#{shade:02x}{shade:02x}{shade:02x}" for shade in np.linspace(0x55, 0xA0, max(count, 1)).astype(int)
     ]
-
-
-def draw_control(
-    panel: Axes, trace: Trace, behaviors: Sequence[str], colors: Sequence[str] | Mapping[str, str]
-) -> None:
-    """Draw when each behavior controlled each robot; `colors` are those of robots, or of behaviors by name."""
-    height = 0.8 / trace.robots
-    for robot, controlling in enumerate(trace.controlling):
-        for name, stretches in _stretches(controlling).items():
-            top = behaviors.index(name) - 0.4 + robot * height
-            bar_color = colors[name] if isinstance(colors, Mapping) else colors[robot]
-            panel.broken_barh(stretches, (top, height), facecolors=bar_color, linewidth=0)
-    failed = failures(trace, behaviors)
-    for pen in OUTLINE_AND_INK if failed else ():
-        panel.plot(*zip(*failed, strict=True), **CROSS, **pen)
-    panel.set_yticks(range(len(behaviors)), behaviors)
-    title = "in control, × where an expectation failed" if failed else "in control"
-    panel.set(ylim=(len(behaviors) - 0.4, -0.6), xlabel="step", title=title)
-    panel.locator_params(axis="x", integer=True)
-
-
-def failures(trace: Trace, behaviors: Sequence[str]) -> list[tuple[int, float]]:
-    """Return the points on a panel of control where an expectation failed: step, and middle of the robot's bar."""
-    height = 0.8 / trace.robots
-    return [
-        (step, behaviors.index(name) - 0.4 + (robot + 0.5) * height)
-        for robot, outcomes in enumerate(trace.expectations)
-        for step, name, outcome in zip(trace.steps.tolist(), trace.controlling[robot], outcomes, strict=True)
-        if outcome == "failed"
-    ]
-
-
-def _stretches(controlling: Sequence[str]) -> Stretches:
-    """Return for each behavior the starts and lengths of its control; step k is drawn from k - 1/2 to k + 1/2."""
-    stretches: Stretches = {}
-    begin = 0.5
-    for name, group in groupby(controlling):
-        length = len(list(group))
-        stretches.setdefault(name, []).append((begin, length))
-        begin += length
-    return stretches

@@ -41,6 +41,29 @@ def test_a_drawing_names_its_lines_and_holds_neither_date_nor_program(tmp_path):
     assert "matplotlib v" not in text.lower()
 
 
+def test_returns_to_compare_with_are_lines_or_named_where_they_are_far(tmp_path):
+    draw_curves(
+        metrics(1),
+        tmp_path / "curves.svg",
+        title="lifting",
+        beside={"by hand": 12.0, "random agents": -900.0},
+    )
+    text = (tmp_path / "curves.svg").read_text()
+    for words in ("lifting", "by hand 12.000", "random agents -900.00, far below"):
+        assert f"<!-- {words} -->" in text
+
+
+def test_the_names_of_many_pools_stand_below_their_diversity(tmp_path):
+    lines = metrics(1)
+    for line in lines:
+        line["diversity"] = {f"behavior_number_{index}": 0.5 for index in range(25)}
+    draw_curves(lines, tmp_path / "curves.svg")
+    draw_curves(metrics(1), tmp_path / "few.svg")
+    heights = [float((tmp_path / name).read_text().partition('height="')[2].partition("pt")[0])
+               for name in ("curves.svg", "few.svg")]  # fmt: skip
+    assert heights[0] > heights[1] + 72
+
+
 @pytest.mark.parametrize("lines", [[], metrics(1, generations=1)])
 def test_runs_that_have_hardly_begun_can_be_drawn(tmp_path, lines):
     draw_curves(lines, tmp_path / "curves.png")

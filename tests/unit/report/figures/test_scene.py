@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from bbsd.evaluation import Scene
 from bbsd.language.models import Spec
 from bbsd.report.figures import draw_episode
-from bbsd.report.figures.marks import _moved, _room, draw_mark
+from bbsd.report.figures.marks import _moved, _room, draw_mark, draw_names
 from bbsd.report.figures.paths import _angle, draw_ends, stretches_of
-from bbsd.report.figures.plane import Limits, limits_of
+from bbsd.report.figures.plane import Limits, draw_surroundings, limits_of
 from bbsd.report.figures.scene import _names_in_view, legend_lines
 
 
@@ -110,8 +110,8 @@ def test_a_scene_shows_paths_marks_and_control_in_the_same_colors(seen, spec, tm
     text = (tmp_path / "first.svg").read_text()
     assert text == (tmp_path / "second.svg").read_text()
     for words in (
-        "from above, 3 steps",
-        "in control",
+        "from above",
+        "in control of each robot",
         "push_more",
         "stop_at_goal",
         "start",
@@ -165,9 +165,22 @@ def test_places_that_are_not_finite_are_left_out(seen, spec, tmp_path):
                       circles=np.array([[1, 1, nan], [nan, 1, 1]]), area=np.array([0, 0, nan, 1]))  # fmt: skip
     draw_episode(replace(seen, scene=strange), spec, tmp_path / "strange.svg")
     text = (tmp_path / "strange.svg").read_text()
-    assert "<!-- from above, 3 steps -->" in text
+    assert "<!-- from above -->" in text
     assert "nan" not in text.lower()
 
 
-def test_the_legend_has_a_line_for_every_three_entries():
-    assert [legend_lines(count) for count in (1, 2, 4, 5)] == [1, 2, 2, 3]
+def test_the_legend_has_a_line_for_every_three_entries_and_fewer_columns_of_long_names():
+    assert [legend_lines(["walk"] * count) for count in (1, 2, 4, 5)] == [1, 2, 2, 3]
+    assert legend_lines(["a_name_of_thirty_two_characters_"] * 25) == 27
+
+
+def test_lines_of_a_view_are_drawn_with_their_names(seen, spec, tmp_path):
+    paths = {"track": np.array([[0.0, 0], [9, 9]]), "wall": np.array([[nan, 1], [2, 2], [3, 3]])}
+    whole = replace(seen.scene, paths=paths)
+    assert limits_of(whole).x[1] > 9
+    draw_episode(replace(seen, scene=whole), spec, tmp_path / "lines.svg")
+    panel = Figure().subplots()
+    draw_surroundings(panel, whole)
+    assert len(panel.lines) == 2
+    draw_names(panel, paths, np.zeros((1, 2)), limits_of(whole))
+    assert [(text.get_text(), text.xy) for text in panel.texts] == [("track", (0, 0)), ("wall", (2, 2))]
