@@ -336,6 +336,47 @@ def test_an_episode_can_be_written_and_drawn(designed, tmp_path):
     assert "<!-- warmth -->" in figure.read_text()
 
 
+def test_a_search_can_be_drawn_anywhere_beside_another_design(designed, tmp_path):
+    figure = tmp_path / "search.svg"
+    words = ["design", SPEC, "--out", designed[0], "--resume", "--quiet", "--plot-to", figure]
+    assert bbsd(*words)[0] == 0
+    assert "<!-- random agents" in figure.read_text()
+    assert bbsd(*words, "--plot-beside", designed[0])[0] == 0
+    assert figure.read_text().count("<!-- thermostat") == 2  # the title, and the line of the same design
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--plot-beside", SPEC], "--plot-beside needs --plot or --plot-to"),
+        (["--plot", "--plot-beside", SPEC], "the design has holes"),
+        (["--plot-to", "no/search.png"], "no"),
+        (["--plot-to", "search.gif"], "search.gif: the name of a figure's file ends with"),
+    ],
+)
+def test_what_cannot_be_drawn_is_found_before_the_search(tmp_path, words, message):
+    code, out, err = bbsd("design", SPEC, "--out", tmp_path / "out", *words, cwd=tmp_path)
+    assert (code, out) == (2, "")
+    assert message in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_a_figure_shows_can_be_chosen(designed, tmp_path):
+    words = [
+        "evaluate",
+        designed[0] / "architecture.yaml",
+        "--episodes",
+        2,
+        "--plot-to",
+        tmp_path / "episode.svg",
+    ]
+    assert bbsd(*words, "--show", "reward")[0] == 0
+    assert "<!-- warmth -->" not in (tmp_path / "episode.svg").read_text()
+    code, out, err = bbsd(*words, "--show", "warmht")
+    assert (code, out) == (2, "")
+    assert 'did you mean "warmth"' in err
+
+
 def test_any_episode_can_be_written_by_its_number_or_its_rank(designed, tmp_path):
     table, returns = tmp_path / "episode.csv", tmp_path / "returns.csv"
     words = ["evaluate", designed[0] / "architecture.yaml", "--episodes", 30, "--json"]

@@ -14,8 +14,8 @@ from bbsd.report.figures.control import (
     draw_control_by_behavior,
     draw_control_by_robot,
 )
-from bbsd.report.figures.episode import draw_panels, reward_height, title_of, titled_figure, value_height
 from bbsd.report.figures.files import stack_panels
+from bbsd.report.figures.layout import draw_panels, reward_height, title_of, titled_figure, value_height
 from bbsd.report.figures.marks import draw_mark, draw_names
 from bbsd.report.figures.panels import is_strip
 from bbsd.report.figures.paths import draw_ends, draw_path, legend_of

@@ -18,8 +18,8 @@ from bbsd.report.figures.control import (
     failures,
     stretches_of_control,
 )
-from bbsd.report.figures.episode import title_of
 from bbsd.report.figures.files import _apart, color, label_ends
+from bbsd.report.figures.layout import title_of
 from bbsd.report.figures.panels import draw_values, earned_so_far, is_strip
 
 
