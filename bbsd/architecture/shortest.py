@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from bbsd.architecture.boxes import FREE, KEEP, cover, n_words
+from bbsd.architecture.boxes import FREE, KEEP, MAX_GREEDY_CELLS, cover, n_words
 from bbsd.language.meaning.tables.table import NO_ACTION
 
 if TYPE_CHECKING:
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 MOST_DECIDED = 16
 """Cells to decide, of which those that rules need not tell apart count once, up to which the shortest list is found."""
+MOST_CELLS = 10_000
+"""Cells of a table up to which it is looked at more closely."""
 MOST_BOXES = 4096
 MOST_KEPT = 256
 """Boxes, and cells that no box may hold, up to which the shortest list is found."""
@@ -84,6 +86,17 @@ def shortest_cover(values: NDArray[np.int64], sizes: Sequence[int]) -> RuleList:
     return _shorter(values, sizes, cover(values, sizes))
 
 
+def unordered_cover(values: NDArray[np.int64], sizes: Sequence[int]) -> list[tuple[Box, int]]:
+    """Return boxes as `shortest_cover` does that can be read in any order: those that overlap have the same value."""
+    if len(values) > MAX_GREEDY_CELLS:
+        return cover(values, sizes)  # these boxes do not overlap
+    return [
+        box
+        for value in np.unique(values[values >= 0]).tolist()
+        for box in shortest_cover(np.where((values >= 0) & (values != value), KEEP, values), sizes).boxes
+    ]
+
+
 def _shorter(values: NDArray[np.int64], sizes: Sequence[int], greedy: list[tuple[Box, int]]) -> RuleList:
     """Return the shortest boxes, or those given where the search is too long."""
     most = sum(n_words(box, sizes) for box, _ in greedy)
@@ -95,6 +108,8 @@ def _shortest(values: NDArray[np.int64], most: int) -> list[tuple[Box, int]] | N
     """Return the boxes of fewest words, at most `most`; None where the table is too large."""
     if not (values >= 0).any():
         return []
+    if values.size > MOST_CELLS:
+        return None
     axes = tuple(_axis(values, axis) for axis in range(values.ndim))
     reduced = values[np.ix_(*([group[0] for group in axis.groups] for axis in axes))]
     cells = np.argwhere(reduced >= 0)

@@ -63,12 +63,15 @@ def _inputs(when: Sequence[Condition]) -> list[str]:
 
 def _cell_text(when: Sequence[Condition], each: InputInWords) -> str:
     """Return which cells of an input a rule names: `-` for any, those that it excludes where these are fewer."""
-    chosen = next((condition.cells for condition in when if condition.input == each.name), None)
-    if chosen is None:
+    named = next((condition for condition in when if condition.input == each.name), None)
+    if named is None:
         return ANY
+    if not each.cells:
+        return ", ".join(named.labels)
+    chosen = named.cells
     if each.cells == TRUTH_CELLS:
         return "yes" if chosen == (1,) else "no"
-    words = [str(word) for word in cell_words(chosen, each.cells)] if each.cells else [*map(str, chosen)]
+    words = [str(word) for word in cell_words(chosen, each.cells)]
     others = [index for index in range(len(each.cells)) if index not in chosen]
     missing = [str(word) for word in cell_words(others, each.cells)] if others else []
     return ", ".join(words) if not missing or len(missing) >= len(words) else f"not {', '.join(missing)}"

@@ -10,7 +10,7 @@ from bbsd.architecture.boxes import FREE, KEEP, first_match
 from bbsd.architecture.policy import controlling, joint_space
 from bbsd.architecture.possible import possible_cells
 from bbsd.architecture.rules import n_words_of, sizes_of
-from bbsd.architecture.shortest import rule_list, shortest_cover
+from bbsd.architecture.shortest import rule_list, unordered_cover
 from bbsd.architecture.spec_changes import MOST_WORDS
 from bbsd.explanation.cells import cares_of, in_order
 from bbsd.explanation.conditions import condition_text, condition_texts, conditions_of
@@ -196,21 +196,21 @@ def _never_asked(
     module: Module, table: NDArray[np.int64], cares: Cares, said: NDArray[np.int64]
 ) -> tuple[NeverAsked, ...]:
     """Return what a table says in cells that were never asked, first where it says something else than the rules."""
-    words = (NO_ACTION_TEXT, *module.actions)
-    found: list[NeverAsked] = []
+    words, found = (NO_ACTION_TEXT, *module.actions), list[NeverAsked]()
+    if not cares.unasked.any():
+        return ()
     for agrees in (False, True):
-        for decision in range(len(words)):
-            cells = cares.unasked & (table == decision) & ((said == table) == agrees)
-            values = np.where(cells, decision, np.where(cares.covered | cares.impossible, FREE, KEEP))
-            found += [
-                NeverAsked(
-                    words[decision],
-                    condition_text(box, module.inputs),
-                    conditions_of(box, module.inputs),
-                    agrees,
-                )
-                for box, _ in shortest_cover(values.astype(np.int64), sizes_of(module.inputs)).boxes
-            ]
+        cells = cares.unasked & ((said == table) == agrees)
+        values = np.where(cells, table, np.where(cares.covered | cares.impossible, FREE, KEEP))
+        boxes = unordered_cover(values, sizes_of(module.inputs))
+        if n_words_of(boxes, module.inputs) > MOST_WORDS:
+            continue
+        found += [
+            NeverAsked(
+                words[decision], condition_text(box, module.inputs), conditions_of(box, module.inputs), agrees
+            )
+            for box, decision in boxes
+        ]
     return tuple(found)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bbsd.architecture.boxes import FREE, KEEP, first_match, n_words
-from bbsd.architecture.shortest import MOST_DECIDED, rule_list, shortest_cover
+from bbsd.architecture.shortest import MOST_DECIDED, rule_list, shortest_cover, unordered_cover
 
 
 def random_table(number, most_inputs=5, largest=5, most_cells=None, lowest=FREE):
@@ -118,6 +118,18 @@ def test_a_cover_leaves_what_no_box_may_hold(number):
     assert (found[values == KEEP] == -1).all()
     decided = np.array([*(value for _, value in boxes), KEEP])[found]
     assert np.array_equal(decided[values >= 0], values[values >= 0])
+
+
+@pytest.mark.parametrize("number", range(30))
+def test_an_unordered_cover_says_the_same_in_any_order(number):
+    values, sizes = random_table(number, 4, 5)
+    values = np.where(values == 0, KEEP, values)
+    boxes = unordered_cover(values, sizes)
+    for order in (boxes, boxes[::-1]):
+        found = first_match([box for box, _ in order], sizes)
+        decided = np.array([*(value for _, value in order), KEEP])[found]
+        assert np.array_equal(decided[values >= 0], values[values >= 0])
+        assert (found[values == KEEP] == -1).all()
 
 
 def test_rules_that_say_nothing_come_last_where_that_is_as_short():

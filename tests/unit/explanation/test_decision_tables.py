@@ -6,7 +6,7 @@ import pytest
 
 from bbsd.explanation import explanation_text, table_text
 from bbsd.explanation.decision_tables import SCREEN, decision_table
-from tests.unit.explanation.test_layers import UPPER_NEAR, explained, visits, with_visits
+from tests.unit.explanation.test_layers import FINE, UPPER_NEAR, explained, visits, with_visits
 
 FOUR = """
   steer:
@@ -94,3 +94,10 @@ def test_the_whole_is_ordered_by_time_where_visits_are_known():
     assert "(1 cell was never asked in 10 episodes; there the table says a where pace is 1.)" in " ".join(
         text.split()
     )
+
+
+def test_cells_of_a_fine_input_are_named_by_their_labels():
+    table = np.zeros(100_000, int)
+    table[[4, 70_001]] = 1
+    fine = FINE.replace("0, 99999", "1, 100000")
+    assert "5, 70002  a\n" in table_text(explained(fine, [table, [0, 1]], [0]))
