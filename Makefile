@@ -55,9 +55,9 @@ fuzz: $(VENV)/.demo
 QUIETLY := --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \
   --disable-component-update --disable-sync --hide-scrollbars
 figures: $(VENV)/.demo
-	$(BIN)/bbsd design specs/object_lifting.yaml --quiet --plot --out .cache/figures
+	$(BIN)/bbsd design specs/object_lifting.yaml --quiet --out .cache/figures \
+	  --plot-to docs/images/curves.png --plot-beside specs/object_lifting_hand.yaml
 	$(BIN)/bbsd evaluate .cache/figures/architecture.yaml --plot docs/images/lifting.png
-	cp .cache/figures/curves.png docs/images/curves.png
 	rm -r .cache/figures
 	for world in mobile_robot grid_world; do \
 	  $(BIN)/bbsd evaluate specs/$${world}_hand.yaml --plot docs/images/$$world.png || exit 1; \
