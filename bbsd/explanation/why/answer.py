@@ -7,6 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from bbsd.architecture import joint_space
+from bbsd.architecture.possible import possible_cells
 from bbsd.evaluation.decisions import layers_of
 from bbsd.explanation.why.aim import NOBODY
 from bbsd.explanation.why.otherwise import otherwise
@@ -108,6 +109,7 @@ def answer_of(
     """
     modules, now = meaning.episode.modules, deciding(architecture, situation)
     space = joint_space(meaning) if unwanted or wanted else None
+    possible = possible_cells(meaning, space) if space is not None and space.is_small else None
     asked = [*((name, False) for name in unwanted), *((name, True) for name in wanted)]
     act = now.act
     layers = layers_of(modules, architecture.structure)
@@ -124,7 +126,7 @@ def answer_of(
         ),
         values=situation.values,
         otherwise=tuple(
-            otherwise(modules, architecture, space, situation, name, wanted=is_wanted)
+            otherwise(modules, architecture, space, situation, name, wanted=is_wanted, possible=possible)
             for name, is_wanted in asked
             if space is not None
         ),

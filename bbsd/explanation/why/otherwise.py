@@ -18,8 +18,9 @@ from bbsd.explanation.why.redesign import Exchange, NewWish, Replacement, decidi
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from numpy.typing import NDArray
+
     from bbsd.architecture import JointSpace
-    from bbsd.explanation.why.aim import Act
     from bbsd.explanation.why.perception import InputChange
     from bbsd.explanation.why.redesign import Change, Changes
     from bbsd.explanation.why.situation import Situation
@@ -80,7 +81,7 @@ class Otherwise:
     tried: str
     """`all` joint cells; or `pairs`, single inputs and pairs of inputs; or `some pairs`."""
     joint_size: int
-    """The number of joint cells."""
+    """The number of joint cells; of a small space, of those that can occur."""
     ways: tuple[Way, ...]
     """The smallest changes of rules or order, first those that change the least elsewhere."""
     ways_in_all: int
@@ -97,8 +98,11 @@ def otherwise(
     name: str,
     *,
     wanted: bool,
+    possible: NDArray[np.bool_] | None = None,
 ) -> Otherwise:
     """Return what would have had to be different for something of that name to control, or not to (`wanted`).
+
+    Of a small space only joint cells count that are `possible`, an array of the shape `space.sizes`; all without it.
 
     Raises:
         NoSuchAction: the name stands for nothing.
@@ -108,21 +112,21 @@ def otherwise(
     now = deciding(architecture, situation)
     _require_otherwise(name, wanted=wanted, did=now.act in named, instead=act_name(now.act, modules))
     aimed = [number for number, act in enumerate(acts) if (act in named) is wanted]
-    found = nearest_perception(space, architecture, joint_cell(space, situation), aimed)
+    found = nearest_perception(space, architecture, joint_cell(space, situation), aimed, possible)
     n_actions = [len(module.actions) for module in modules]
     options = smallest_changes(now, n_actions, {acts[number] for number in aimed})
     counted = space.is_small and space.joint_size * len(options) <= MOST_CELLS_COMPARED
     before = policy(space, architecture) if counted else None
-    ways = [
-        Way(
-            tuple(_in_words(change, modules, architecture, situation) for change in changes),
-            act_name(_act_after(changes, architecture, situation), modules),
-            None
-            if before is None
-            else int(np.count_nonzero(policy(space, changed(architecture, situation, changes)) != before)),
-        )
-        for changes in options
-    ]
+    occurring = np.ones(space.joint_size, np.bool_) if counted and possible is None else possible
+
+    def way_of(changes: Changes) -> Way:
+        after, elsewhere = changed(architecture, situation, changes), None
+        if before is not None and occurring is not None:
+            elsewhere = int(np.count_nonzero((policy(space, after) != before) & occurring.ravel()))
+        words = tuple(_in_words(change, modules, architecture, situation) for change in changes)
+        return Way(words, act_name(deciding(after, situation).act, modules), elsewhere)
+
+    ways = [way_of(changes) for changes in options]
     return Otherwise(
         name=name,
         wanted=wanted,
@@ -130,7 +134,7 @@ def otherwise(
         then=act_name(acts[found.act], modules) if found.is_found else None,
         equally_small=found.equally_small,
         tried=found.tried,
-        joint_size=space.joint_size,
+        joint_size=space.joint_size if possible is None else int(np.count_nonzero(possible)),
         ways=tuple(sorted(ways, key=lambda way: way.elsewhere or 0))[:MOST_WAYS],
         ways_in_all=len(ways),
         is_excited=any(act.behavior < 0 or now.excited[act.behavior] for act in named),
@@ -154,10 +158,6 @@ def changed(architecture: Architecture, situation: Situation, changes: Changes) 
         if isinstance(change, NewWish):
             tables[change.behavior][situation.cells[change.behavior]] = change.wish
     return Architecture(tuple(tables), np.array(now.structure, np.int64))
-
-
-def _act_after(changes: Changes, architecture: Architecture, situation: Situation) -> Act:
-    return deciding(changed(architecture, situation, changes), situation).act
 
 
 def _in_words(

@@ -94,15 +94,20 @@ def acts_around(
 
 
 def nearest_perception(
-    space: JointSpace, architecture: Architecture, cell: Sequence[int], wanted: Sequence[int]
+    space: JointSpace,
+    architecture: Architecture,
+    cell: Sequence[int],
+    wanted: Sequence[int],
+    possible: NDArray[np.bool_] | None = None,
 ) -> Perception:
     """Return the smallest change of a joint cell after which one of the wanted acts, given by numbers, controls.
 
-    None of them controls in the cell itself. Every combination of cells counts, also one that cannot occur.
+    None of them controls in the cell itself. Of a small space only joint cells count that are `possible`, an array of
+    the shape `space.sizes`; without it every combination of cells counts, also one that cannot occur.
     """
     dimensions = range(len(space.dimensions))
     if space.is_small:
-        found = _nearest(space, architecture, cell, dimensions, wanted)
+        found = _nearest(space, architecture, cell, dimensions, wanted, possible=possible)
         return _perception(space, cell, [] if found is None else [found], "all")
     tried = "pairs"
     for n_changed in range(1, MOST_WITHOUT_ALL + 1):
@@ -134,6 +139,7 @@ def _nearest(
     free: Sequence[int],
     wanted: Sequence[int],
     n_changed: int | None = None,
+    possible: NDArray[np.bool_] | None = None,
 ) -> _Nearest | None:
     """Return the nearest wanted cell in some dimensions, with the fewest changes, or with exactly so many."""
     acts = acts_around(space, architecture, cell, free)
@@ -141,6 +147,8 @@ def _nearest(
     offsets = [np.abs(places - cell[axis]) for axis, places in zip(free, mesh, strict=True)]
     changed = sum((offset > 0 for offset in offsets), np.zeros(acts.shape, np.int64))
     wanted_there = np.isin(acts, wanted) & (changed > 0)
+    if possible is not None:
+        wanted_there &= possible
     fewest = n_changed or int(changed[wanted_there].min(initial=len(free) + 1))
     wanted_there &= changed == fewest
     if not wanted_there.any():

@@ -86,7 +86,9 @@ What would have let nobody control:
 def test_of_what_is_not_excited_no_rule_can_help():
     text = answer_text(bbsd.why(GRID, step=3, wanted=["follow_wall"]))
     assert "No change of rules or order: follow_wall was not excited." in text
-    assert "Perceiving follow_wall excited instead of not excited" in text or "; then follow_wall." in text
+    # Where no wall is near it cannot be excited: a wall must be perceived too.
+    assert "Perceiving wall_right true instead of false" in text
+    assert "80 joint cells" in " ".join(text.split())
 
 
 def test_a_why_is_plain_data():
