@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import floor, log10
 from typing import TYPE_CHECKING, get_args
 
+from bbsd.explanation.conditions import join_words
 from bbsd.explanation.worth.results import (
     Finding,
     FindingKind,
@@ -44,7 +45,7 @@ def findings_of(
         *(finding for each in behaviors for finding in judge.of_behavior(each)),
         *(finding for each in behaviors for rule in each.rules for finding in judge.of_rule(each, rule)),
         *judge.of_orders(orders),
-        *(_of_robots(pair) for pair in alike if are_alike(pair)),
+        *_of_robots([pair for pair in alike if are_alike(pair)]),
     ]
     kinds = get_args(FindingKind)
     return tuple(sorted(found, key=lambda finding: kinds.index(finding.kind)))
@@ -119,14 +120,26 @@ class _Judge:
         return f"return {low} to {high}"
 
 
-def _of_robots(pair: RobotsAlike) -> Finding:
-    doing = f"did the same in {_percent(pair.same_action)} of the steps"
-    if pair.same_place is not None:
-        doing += f", and stood in the same place after {_percent(pair.same_place)}"
-    else:
-        doing += f", and were in the same state after {_percent(pair.same_state)}"
-    names = (str(pair.first), str(pair.second))
-    return Finding("robots alike", names, f"robots {pair.first} and {pair.second} {doing}")
+def _of_robots(pairs: Sequence[RobotsAlike]) -> Iterator[Finding]:
+    """Name each group of robots that are all alike, in pairs or over others."""
+    groups: list[set[int]] = []
+    for pair in pairs:
+        joined = {pair.first, pair.second}.union(
+            *(group for group in groups if {pair.first, pair.second} & group)
+        )
+        groups = [group for group in groups if not group & joined] + [joined]
+    for group in sorted(groups, key=min):
+        within = [pair for pair in pairs if pair.first in group]
+        more = " at least" if len(within) > 1 else ""
+        doing = f"did the same in{more} {_percent(min(pair.same_action for pair in within))} of the steps"
+        places = [pair.same_place for pair in within if pair.same_place is not None]
+        if places:
+            doing += f", and stood in the same place after{more} {_percent(min(places))}"
+        else:
+            same = min(pair.same_state for pair in within)
+            doing += f", and were in the same state after{more} {_percent(same)}"
+        robots = [str(robot) for robot in sorted(group)]
+        yield Finding("robots alike", tuple(robots), f"robots {join_words(robots, 'and')} {doing}")
 
 
 def _percent(share: float) -> str:

@@ -144,14 +144,26 @@ def test_another_order_must_be_clearly_better():
     assert judged(behavior(LOSS), [perhaps]) == []
 
 
+def alike(*pairs):
+    return [finding.text for finding in findings_of([], [], pairs, GOOD, 100.0)]
+
+
 def test_robots_in_the_same_place_are_alike():
+    assert alike(RobotsAlike(0, 1, 0.5, 0.0, 0.99, 10), RobotsAlike(0, 2, 0.5, 0.0, 0.4, 10)) == [
+        "robots 0 and 1 did the same in 50.0 % of the steps, and stood in the same place after 99.0 %"
+    ]
+    assert alike(RobotsAlike(1, 2, 0.5, 0.96, None, 10)) == [
+        "robots 1 and 2 did the same in 50.0 % of the steps, and were in the same state after 96.0 %"
+    ]
+
+
+def test_more_than_two_that_are_alike_are_named_together():
     pairs = [
-        RobotsAlike(0, 1, 0.5, 0.0, 0.99, 10),
-        RobotsAlike(0, 2, 0.5, 0.0, 0.4, 10),
-        RobotsAlike(1, 2, 0.5, 0.96, None, 10),
+        RobotsAlike(one, other, 1.0, 0.9 + 0.01 * other, None, 10)
+        for one, other in ((0, 3), (1, 4), (3, 5), (4, 6))
     ]
-    found = findings_of([], [], pairs, GOOD, 100.0)
-    assert [finding.text for finding in found] == [
-        "robots 0 and 1 did the same in 50.0 % of the steps, and stood in the same place after 99.0 %",
-        "robots 1 and 2 did the same in 50.0 % of the steps, and were in the same state after 96.0 %",
-    ]
+    first, second = alike(*pairs)
+    assert first.startswith("robots 0, 3 and 5 did the same in at least 100.0 % of the steps")
+    assert first.endswith(", and were in the same state after at least 93.0 %")
+    assert second.startswith("robots 1, 4 and 6 did the same in at least 100.0 % of the steps")
+    assert second.endswith(", and were in the same state after at least 94.0 %")
