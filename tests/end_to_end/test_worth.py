@@ -6,6 +6,7 @@ import pytest
 
 import bbsd
 from tests.end_to_end.commands import bbsd as command
+from tests.unit.explanation.worth.planted import planted
 
 HAND = "specs/object_lifting_hand.yaml"
 
@@ -40,6 +41,19 @@ def test_the_return_is_that_of_an_evaluation():
     assert sum(sum(each["earned"].values()) for each in earned) == pytest.approx(
         plain["return"]["mean"], abs=1e-9
     )
+
+
+@pytest.mark.slow
+def test_what_was_planted_is_found(tmp_path):
+    path = tmp_path / "planted.yaml"
+    path.write_text(planted(robots=2, mood="0"))
+    code, out, _ = command("worth", path)
+    text = " ".join(out.split())
+    assert code == 0
+    assert "grab is selfish: it earns 3 in each step that it controls" in text
+    assert "guard never controls: it can be removed" in text
+    assert "work: the rule stay where sure is 3 is never used, it can be removed" in text
+    assert "robots 0 and 1 did the same in 100.0 % of the steps" in text
 
 
 def test_mistakes_of_users():

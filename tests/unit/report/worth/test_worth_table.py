@@ -90,3 +90,23 @@ def test_the_order_is_drawn(worth):
         'digraph order {\n  node [shape=box];\n  "guard";\n  "grab";\n  "work";\n  "grab" -> "work";\n}'
     )
     assert order_mermaid(worth) == 'flowchart TD\n  b0["guard"]\n  b1["grab"]\n  b2["work"]\n  b1 --> b2'
+
+
+def test_a_single_layer_has_no_order():
+    worth = appraisal_of(planted().replace("[guard, grab, work]", "[work]"), episodes=2).worth()
+    console = Console(file=StringIO(), width=80, color_system=None)
+    console.print(worth_table(worth))
+    text = console.file.getvalue()
+    assert "orders" not in text
+    assert "not in the structure: grab, guard" in text
+    assert worth_plain(worth)["orders"]["above"] == []
+    assert order_dot(worth) == 'digraph order {\n  node [shape=box];\n  "work";\n}'
+
+
+def test_a_behavior_that_does_nothing_has_no_rules_to_drop():
+    text = planted().replace(
+        "do: take\n      - otherwise: no action", "do: no action\n      - otherwise: no action"
+    )
+    console = Console(file=StringIO(), width=80, color_system=None)
+    console.print(worth_table(appraisal_of(text, episodes=2).worth()))
+    assert "grab\n  no action" in "\n".join(line.rstrip() for line in console.file.getvalue().splitlines())
