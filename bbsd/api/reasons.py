@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.specs import AnySpec, load
-from bbsd.api.tracing import episode_number, trace
 from bbsd.architecture import architecture_of
 from bbsd.errors import UsageError
 from bbsd.explanation.why import Answer, answer_of, described_situation, situation_in
@@ -66,6 +65,9 @@ def why(
         generation = loaded.spec.design.coevolution.generations
         situation = described_situation(loaded.meaning, at or {}, robot, generation)
     else:
+        # A described situation needs no compiler.
+        from bbsd.api.tracing import episode_number, trace
+
         number = episode_number(loaded, episode, seed=seed)
         situation = situation_in(trace(loaded, seed=seed, episode=number), step, robot)
     return answer_of(

@@ -8,7 +8,7 @@ import pytest
 
 import bbsd.api
 from bbsd.architecture import HolesLeft
-from bbsd.errors import SpecError
+from bbsd.errors import SpecError, UsageError
 from bbsd.evaluation import NotEnumerable
 from bbsd.runs.storage.folder import FolderError
 from bbsd.version import REVISION
@@ -215,6 +215,22 @@ def test_a_trace_is_an_episode_that_was_evaluated(designed):
     means = [bbsd.api.evaluate(path, seed=1, episodes=episodes).mean for episodes in (1, 2, 3)]
     assert means == pytest.approx([sum(earned[:count]) / count for count in (1, 2, 3)])
     assert len({*means}) > 1 or all(a == b for a, b in pairwise(earned))
+
+
+@pytest.mark.parametrize("rank", ["worst", "median", "best"])
+def test_a_trace_can_be_of_an_episode_chosen_by_its_return(designed, rank):
+    path = designed[0].architecture
+    spread = bbsd.api.evaluate(path, seed=1, episodes=40).spread
+    chosen = bbsd.api.trace(path, seed=1, episode=rank, episodes=40)
+    named = bbsd.api.trace(path, seed=1, episode=spread.episodes[rank])
+    assert chosen.values == named.values
+    why = bbsd.api.why(path, seed=1, episode=spread.episodes[rank], step=2)
+    assert (why.behavior, why.episode) == (chosen.controlling[0][1], spread.episodes[rank])
+
+
+def test_no_episode_is_before_the_first(designed):
+    with pytest.raises(UsageError, match="no episode -1"):
+        bbsd.api.trace(designed[0].architecture, episode=-1)
 
 
 def test_an_exact_evaluation_tries_every_start(spec):
