@@ -101,6 +101,15 @@ def test_a_faulty_sensor_leaves_the_others_alone(meaning, fault, seen):
     assert inputs(traced(meaning, fault), robot=1) == expected
 
 
+def test_a_sensor_that_looks_back_sees_what_was_perceived_before():
+    text = COUNTING.format(robots=1).replace(
+        "    far: count > 2\n", "    far: count > 2\n    slope: count - before(count)\n"
+    )
+    meaning = meaning_of(text.replace("values(count, 0, 9)", "values(slope + 3, 0, 9)"))
+    assert inputs(traced(meaning))[0] == [3, 4, 4, 4, 4, 4]
+    assert inputs(traced(meaning, "sensor=count:lost@4"))[0] == [3, 4, 4, 1, 3, 3]
+
+
 def test_reward_goes_by_what_is_true_and_actions_by_what_is_perceived(meaning):
     right, wrong = traced(meaning), traced(meaning, "sensor=count:lost")
     np.testing.assert_array_equal(wrong.rewards["high"], right.rewards["high"])

@@ -78,6 +78,17 @@ def test_the_time_is_divided_as_traces_say(worth, appraisal):
     assert worth.nobody_control == pytest.approx(1 - sum(each.control for each in worth.behaviors))
 
 
+def test_who_is_excited_and_has_no_action_leaves_control_to_others():
+    worth = appraisal_of(planted(), episodes=20).worth()
+    _, grab, work = worth.behaviors
+    assert grab.excited == work.excited == work.activated == 1.0
+    assert 0.3 < grab.control < 0.7
+    assert grab.activated == pytest.approx(grab.control)
+    assert work.suppressed == pytest.approx(grab.control)
+    assert sum(rule.control for rule in work.rules) == pytest.approx(1 - grab.control)
+    assert work.rules[1].control == 0
+
+
 def test_neighbors_are_exchanged(worth, appraisal):
     assert len(worth.swaps) == len(appraisal.layers) - 1
     for swap, (lower, upper) in zip(worth.swaps, pairwise(worth.behaviors[::-1]), strict=True):
