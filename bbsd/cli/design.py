@@ -11,13 +11,12 @@ import typer
 
 from bbsd.cli.budget import read_budget, read_seeds
 from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
-from bbsd.cli.output import error_console, leave_now, require_writable_file, say, show, show_table
-from bbsd.report.figures import draw_curves, require_figure
-from bbsd.report.numbers import number
+from bbsd.cli.output import error_console, leave_now, say, show, show_table
+from bbsd.cli.search_figures import CURVES, draw_search, require_figures
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
     from contextlib import AbstractContextManager
 
     from bbsd.api import Designed, Interrupted
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 LEAST_BUDGET = 5_000
 """As in `bbsd.language.design`, which takes long to import."""
 INTERRUPTED = 130
-CURVES = "curves.png"
 DRAWING = 0.5
 """Approximate seconds to import matplotlib and draw the curves."""
 
@@ -139,7 +137,7 @@ def design(
     from bbsd.language.loading import load
     from bbsd.text import Source
 
-    _require_figures(plot, plot_to, plot_beside, seed)
+    require_figures(plot, plot_to, plot_beside, seed)
     _make_folder(tensorboard)
     set_by_budget, within = read_budget(budget)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
@@ -210,25 +208,8 @@ def design(
     _show(designed, seed, runs, as_json=as_json)
     figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
     if figures:
-        _draw_curves(designed, loaded.spec.name, seed, plot_beside, figures)
+        draw_search(designed, loaded.spec.name, seed, plot_beside, figures)
     _write_events(designed, tensorboard)
-
-
-def _require_figures(plot: bool, plot_to: Path | None, beside: Path | None, seed: int) -> None:
-    """Find out before the search whether its figures can be drawn, and what they compare it with evaluated."""
-    if plot:
-        require_figure(Path(CURVES))
-    if plot_to:
-        require_figure(plot_to)
-        require_writable_file(plot_to)
-    if beside is None:
-        return
-    if not (plot or plot_to):
-        raise typer.BadParameter("--plot-beside needs --plot or --plot-to")
-    from bbsd.api.specs import load
-    from bbsd.architecture import architecture_of
-
-    architecture_of(load(beside, seed=seed).meaning)
 
 
 def _show_seeds(several: "Mapping[int, Designed]", *, as_json: bool) -> None:
@@ -296,23 +277,6 @@ def _resume_command(folder: Path) -> str:
     ]
     named = any(word.partition("=")[0] == "--out" for word in given) or str(folder) in given
     return shlex.join(["bbsd", *given, *([] if named else ["--out", str(folder)]), "--resume"])
-
-
-def _draw_curves(
-    designed: "Designed", name: str, seed: int, beside: Path | None, figures: "Sequence[Path]"
-) -> None:
-    """Draw the metrics, after the result is shown: matplotlib takes longer than a small design."""
-    from bbsd import api
-    from bbsd.runs.storage.folder import Folder
-
-    returns = {"random agents": designed.random.mean}
-    if beside is not None:
-        compared = api.load(beside, seed=seed)
-        returns[compared.spec.name] = api.evaluate(compared, seed=seed).mean
-    title = f"{name}, seed {seed}: the design earns {number(designed.mean)}"
-    lines = Folder(designed.folder).lines()
-    for path in figures:
-        draw_curves(lines, path, title=title, beside=returns)
 
 
 def _make_folder(folder: Path | None) -> None:
