@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from bbsd.errors import escape
 from bbsd.report.figures.files import color, label_ends, legend, marker, panels_in_file
 from bbsd.report.numbers import number
 
@@ -80,7 +81,7 @@ def _draw_beside(panel: Axes, beside: Mapping[str, float]) -> None:
         else:
             notes.append(f"{text}, {'far below' if value < low else 'far above'}")
     if notes:
-        panel.set_title("; ".join(notes), fontsize=8, color="#666666", loc="right")
+        panel.set_title(escape("; ".join(notes)), fontsize=8, color="#666666", loc="right", parse_math=False)
     label_ends(panel, shown, 3.0)
 
 

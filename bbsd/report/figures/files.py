@@ -7,8 +7,9 @@ from importlib.util import find_spec
 from io import BytesIO
 from math import isnan
 from typing import TYPE_CHECKING, Any
+from warnings import catch_warnings, filterwarnings
 
-from bbsd.errors import UsageError
+from bbsd.errors import UsageError, escape
 from bbsd.files import write_whole
 
 if TYPE_CHECKING:
@@ -98,7 +99,7 @@ def panels_in_file(path: Path, width: float, heights: list[float], title: str = 
 
 def set_title(figure: Figure, title: str) -> None:
     """Write the title of a whole figure."""
-    figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+    figure.suptitle(escape(title), x=0.01, ha="left", fontsize=10, parse_math=False)
 
 
 @contextmanager
@@ -108,7 +109,10 @@ def figure_in_file(path: Path, width: float, height: float) -> Iterator[Figure]:
     from matplotlib import style
     from matplotlib.figure import Figure
 
-    with style.context(["default", STYLE]):
+    with style.context(["default", STYLE]), catch_warnings():
+        filterwarnings(
+            "ignore", message="Glyph .* missing"
+        )  # a name may have signs that the font does not have
         figure = Figure(figsize=(width, height), layout="constrained")
         yield figure
         _save(figure, path)
@@ -147,7 +151,13 @@ def label_ends(panel: Axes, ends: Sequence[tuple[str, float]], height: float) ->
     labels = [(place, name) for place, names in places.items() for name in _lines_of(names)]
     for place, name in _apart(labels, LETTER_HEIGHT / height):
         panel.annotate(
-            name, (1.01, place), xycoords="axes fraction", va="center", fontsize=7.5, annotation_clip=False
+            escape(name),
+            (1.01, place),
+            xycoords="axes fraction",
+            va="center",
+            fontsize=7.5,
+            annotation_clip=False,
+            parse_math=False,
         )
 
 

@@ -70,12 +70,13 @@ def draw_panels(
     panels: Sequence[Axes], choice: Choice, trace: Trace, heights: Sequence[float], *, in_gray: bool
 ) -> None:
     """Draw the values that were chosen and the reward into panels of these heights in inches, and a legend of lines."""
-    with_legend = False
+    told = set[tuple[str, ...]]()
     for panel, shown in zip(panels, choice.panels, strict=False):
         draw_values(panel, shown, in_gray=in_gray)
-        if not with_legend and not is_strip(shown, in_gray=in_gray) and any(c.label for c in shown.curves):
+        labels = tuple(curve.label for curve in shown.curves)
+        if any(labels) and labels not in told and not is_strip(shown, in_gray=in_gray):
             legend(panel)
-            with_legend = True
+            told.add(labels)
     if choice.reward:
         place = len(choice.panels)
         draw_reward(panels[place], trace, heights[place] - AROUND_PANEL)

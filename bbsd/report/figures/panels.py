@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -43,7 +44,8 @@ def draw_values(panel: Axes, shown: ValuePanel, *, in_gray: bool = False) -> Non
         _draw_strips(panel, shown)
     else:
         _draw_lines(panel, shown, in_gray=in_gray)
-    panel.set_title(shown.title)
+    finite = any(isfinite(value) for curve in shown.curves for value in curve.values)
+    panel.set_title(shown.title if finite else f"{shown.title}: no finite value")
 
 
 def _draw_lines(panel: Axes, shown: ValuePanel, *, in_gray: bool) -> None:
@@ -69,7 +71,7 @@ def _draw_lines(panel: Axes, shown: ValuePanel, *, in_gray: bool) -> None:
 
 def _draw_strips(panel: Axes, shown: ValuePanel) -> None:
     """Draw a strip for each curve, one below the other, and a scale beside them."""
-    values = np.array([curve.values for curve in shown.curves])
+    values = np.ma.masked_invalid([curve.values for curve in shown.curves])
     n_curves, n_moments = values.shape
     image = panel.imshow(
         values,

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from math import inf, nan
 
 import numpy as np
 import pytest
@@ -127,6 +128,22 @@ def test_many_robots_have_a_strip_each_with_a_scale():
     assert not axes.lines
 
 
+@pytest.mark.parametrize("n_curves", [2, 9])
+def test_values_that_are_not_finite_can_be_drawn(n_curves, trace, spec, tmp_path):
+    start = {slot: value for slot, value in trace.start.items() if slot.name != "height"}
+    values = {slot: column for slot, column in trace.values.items() if slot.name != "height"}
+    for name, kept in (("height", 1.0), ("tilt", inf)):
+        for robot in range(n_curves):
+            values[Slot(name, robot)] = [nan, inf, kept + robot]
+            start[Slot(name, robot)] = -inf
+    odd = replace(trace, values=values, start=start)
+    draw_episode(odd, spec, tmp_path / "episode.svg", show=["height", "tilt"])
+    text = (tmp_path / "episode.svg").read_text()
+    assert "<!-- height -->" in text
+    assert "tilt" in text
+    assert "no finite value -->" in text
+
+
 def test_what_was_earned_so_far_adds_up_to_the_return(trace):
     found = earned_so_far(trace)
     assert found["near_goal"] == pytest.approx([0, 0.1, 0.3, 0.95])
@@ -211,6 +228,12 @@ def test_colors_of_many_behaviors_differ():
 def test_a_title_names_the_spec_the_episode_and_its_return(trace, spec, episode):
     number = "" if episode is None else ", episode 7"
     assert title_of(trace, spec, episode) == f"lifting{number}: return 0.9500 in 3 steps"
+
+
+def test_a_name_is_no_formula_and_cannot_hide_anything(trace, spec, tmp_path):
+    odd = spec.model_copy(update={"name": "cost $\\wrong{$ \x1b[31m 作"})
+    draw_episode(trace, odd, tmp_path / "episode.svg")
+    assert "\x1b" not in (tmp_path / "episode.svg").read_text()
 
 
 def test_what_is_left_out_is_named_in_the_figure(trace, spec, tmp_path):
