@@ -22,16 +22,20 @@ Floats = npt.NDArray[np.float64]
 Keys = npt.NDArray[np.uint64]
 
 
-def returns_of(problem: Problem, agents: Agents, keys: Keys, generation: int) -> Floats:
+def returns_of(
+    problem: Problem, agents: Agents, keys: Keys, generation: int, *, all_finite: bool = True
+) -> Floats:
     """Return the return of every agent in every episode, (n_agents, n_episodes).
 
-    Keys (n_episodes,) name episodes that all agents have, keys (n_agents, n_episodes) each agent's own.
+    Keys (n_episodes,) name episodes that all agents have, keys (n_agents, n_episodes) each agent's own. Raises
+    RewardNotFinite unless not `all_finite`; then returns may be infinite or NaN.
     """
     returns = np.empty(len(agents) * keys.shape[-1])
     for lanes, batch, streams in batches_of(agents, keys):
         team = problem.assemble(agents.pools, batch.members, generation)
         returns[lanes] = team.episode(streams, batch.structures).returns
-        require_finite(problem, batch, streams, returns[lanes], generation)
+        if all_finite:
+            require_finite(problem, batch, streams, returns[lanes], generation)
     return returns.reshape(len(agents), -1)
 
 

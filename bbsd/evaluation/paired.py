@@ -42,8 +42,12 @@ class PairedEpisodes:
         return len(self.returns)
 
     def difference(self, design: int, base: int = 0) -> Interval:
-        """Return what a design earned more than another in the same episodes, with the interval of the mean."""
-        return interval(self.returns[design] - self.returns[base])
+        """Return what a design earned more than another in the same episodes, with the interval of the mean.
+
+        It is NaN where a return is infinite or not a number.
+        """
+        with np.errstate(invalid="ignore"):
+            return interval(self.returns[design] - self.returns[base])
 
     def term_differences(self, design: int, base: int = 0) -> dict[str, Interval]:
         """Return what each reward term gave a design more than another, with intervals."""
@@ -74,6 +78,7 @@ def paired_episodes(
     *,
     with_terms: bool = False,
     labels: Sequence[str] = (),
+    all_finite: bool = True,
 ) -> PairedEpisodes:
     """Run all agents in the same episodes, as lanes of one team, batch by batch.
 
@@ -84,6 +89,7 @@ def paired_episodes(
         generation: in whose constants they run.
         with_terms: whether to keep what each reward term gave; the kernel that tells it is slower.
         labels: what to call each design in the error of a reward that is not finite.
+        all_finite: whether a reward that is not finite is an error for all designs, or for the first one alone.
 
     Raises:
         RewardNotFinite: a reward was infinite or not a number.
@@ -98,7 +104,8 @@ def paired_episodes(
             returns[lanes], terms[:, lanes] = outcome.returns, outcome.terms.T
         else:
             returns[lanes] = team.episode(streams, batch.structures).returns
-        for lane in np.flatnonzero(~np.isfinite(returns[lanes]))[:1]:
+        end = lanes.stop if all_finite else min(lanes.stop, n_episodes)
+        for lane in np.flatnonzero(~np.isfinite(returns[lanes.start : end]))[:1]:
             design, episode = divmod(lanes.start + int(lane), n_episodes)
             label = f", {labels[design]}" if labels else ""
             one = slice(lane, lane + 1)

@@ -36,7 +36,13 @@ class Interval:
 
 
 def interval(values: Floats) -> Interval:
-    """Return the mean of independent values (n,) with its interval, which is NaN for a single value."""
+    """Return the mean of independent values (n,) with its interval, which is NaN for a single value.
+
+    All is NaN where a value is infinite or not a number.
+    """
+    if not np.isfinite(values).all():
+        unknown = float("nan")
+        return Interval(unknown, unknown, unknown, unknown, len(values))
     center = mean(values)
     if len(values) < 2:
         return Interval(center, float("nan"), float("nan"), float("nan"), len(values))

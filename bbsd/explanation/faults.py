@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation import Agents, Interval, RewardNotFinite, agents_of, interval, returns_of
+from bbsd.evaluation import Agents, Interval, agents_of, interval, returns_of
 from bbsd.evaluation.faults import faulty_meaning
 from bbsd.evaluation.frames import frame
 from bbsd.evaluation.sums import mean, row_means
@@ -141,15 +141,14 @@ class Disturbed:
         own = np.tile(keys[: n_designs * each].reshape(n_designs, each), (n_orders, 1))
         agents = self._designs[np.tile(np.arange(n_designs), n_orders)]
         agents = agents.with_structures(np.repeat(np.stack(structures), n_designs, axis=0))
-        try:
-            return returns_of(self._faulty, agents, own, self.generation).reshape(n_orders, -1)
-        except RewardNotFinite as error:
-            error.episode += f", {self.fault.text}"
-            raise
+        returns = returns_of(self._faulty, agents, own, self.generation, all_finite=False)
+        return returns.reshape(n_orders, -1)
 
     def interval(self, values: Floats) -> Interval:
         """Return the mean of values by episode with its interval, over the random tables where there are several."""
         n_designs = len(self._designs)
+        if not np.isfinite(values).all():
+            return interval(values)
         return interval(values) if n_designs == 1 else interval(row_means(values.reshape(n_designs, -1)))
 
     def learned(self, episodes: int) -> Structure:
@@ -162,8 +161,10 @@ class Disturbed:
             orders, whole = tried_orders(best)
             keys = keys_of(fold(stream, word_of(climbed)), 0, episodes)
             returns = self.returns(orders, keys)
-            most = max(range(len(orders)), key=lambda order: mean(returns[order]))
-            if not clearly_above(self.interval(returns[most] - returns[0])):
+            most = max(range(len(orders)), key=lambda order: _mean_or_worst(returns[order]))
+            with np.errstate(invalid="ignore"):
+                gain = self.interval(returns[most] - returns[0])
+            if not clearly_above(gain):
                 break
             best = orders[most]
             if whole:
@@ -195,7 +196,7 @@ def degradations(
         progress: is called with the numbers of faults done and of all.
 
     Raises:
-        RewardNotFinite: a reward was infinite or not a number.
+        RewardNotFinite: a reward of the undisturbed design was infinite or not a number.
     """
     keys, n_tables = keys_of(key, 0, episodes), min(RANDOM_TABLES, episodes)
     base = returns_of(problem, agents_of([architecture]), keys, generation)[0]
@@ -208,6 +209,11 @@ def degradations(
     return Degradations(interval(base), _named(problem, architecture.structure), tuple(found), n_tables)
 
 
+def _mean_or_worst(returns: Floats) -> float:
+    """Return the mean of returns, less than all others where a reward was not finite."""
+    return mean(returns) if np.isfinite(returns).all() else float("-inf")
+
+
 def _degradation(disturbed: Disturbed, base: Floats, keys: Keys, *, relearn: bool) -> Degradation:
     structures = [disturbed.architecture.structure]
     if relearn and len(structures[0]) > 1:
@@ -215,14 +221,16 @@ def _degradation(disturbed: Disturbed, base: Floats, keys: Keys, *, relearn: boo
     returns = disturbed.returns(structures, keys)
     base = base[: returns.shape[1]]
     relearned = None
+    with np.errstate(invalid="ignore"):
+        changes, gain = returns - base, returns[-1] - returns[0]
     if len(structures) > 1:
         relearned = Relearned(
             _named(disturbed.problem, structures[1]),
             disturbed.interval(returns[1]),
-            disturbed.interval(returns[1] - base),
-            disturbed.interval(returns[1] - returns[0]),
+            disturbed.interval(changes[1]),
+            disturbed.interval(gain),
         )
-    change = disturbed.interval(returns[0] - base)
+    change = disturbed.interval(changes[0])
     return Degradation(disturbed.fault, disturbed.interval(returns[0]), change, relearned)
 
 

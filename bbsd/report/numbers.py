@@ -38,12 +38,18 @@ def changes(values: Sequence[float]) -> list[str]:
 
 
 def with_halves(intervals: Sequence[Interval], *, signed: bool = True) -> list[str]:
-    """Return means with half their intervals, such as `-549.08 ±1.12`, all with the same decimals."""
+    """Return means with half their intervals, such as `-549.08 ±1.12`, all with the same decimals.
+
+    Where rewards were not finite there is no mean.
+    """
     means = (changes if signed else column)([each.mean for each in intervals])
     decimals = max((len(text.partition(".")[2]) for text in means), default=0)
     halves = [f"{each.high - each.mean:.{decimals}f}" for each in intervals]
     width = max(map(len, halves), default=0)
-    return [f"{text} ±{half:<{width}}" for text, half in zip(means, halves, strict=True)]
+    return [
+        "not finite" if isnan(each.mean) else f"{text} ±{half:<{width}}"
+        for each, text, half in zip(intervals, means, halves, strict=True)
+    ]
 
 
 def _special(value: float) -> str:

@@ -105,7 +105,12 @@ class Appraisal:
         """The design and all its variants in the same episodes."""
         variants = self._numbered[0]
         return paired_episodes(
-            self.problem, variants.agents, self.keys, self.generation, labels=variants.labels
+            self.problem,
+            variants.agents,
+            self.keys,
+            self.generation,
+            labels=variants.labels,
+            all_finite=False,
         )
 
     def dropped(self, behavior: int) -> Interval:
@@ -138,7 +143,9 @@ class Appraisal:
         each = self.episodes // n_tables
         own = self.keys[: n_tables * each].reshape(n_tables, each)
         base = self.paired.returns[0, : n_tables * each].reshape(n_tables, each)
-        returns = returns_of(self.problem, agents, own, self.generation)
+        returns = returns_of(self.problem, agents, own, self.generation, all_finite=False)
+        if not np.isfinite(returns).all():
+            return interval(returns.ravel())
         return interval(row_means(returns - base))
 
     @property
@@ -217,7 +224,7 @@ class Appraisal:
         """Return the worth of all parts of the design; `progress` is called with the parts done and all.
 
         Raises:
-            RewardNotFinite: a reward of the design or of a variant was infinite or not a number.
+            RewardNotFinite: a reward of the design itself was infinite or not a number.
             TooLongToWatch: an episode has too many steps to record who is excited.
         """
         total = len(self.layers) + 5

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations, permutations
+from math import isnan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -80,7 +81,8 @@ def compare_orders(
         groups.setdefault(key, []).append(number)
     distinct = list(groups.values())
     chosen = _in_episodes(problem, architecture, [structures[g[0]] for g in distinct], choosing, generation)
-    ranked = sorted(range(1, len(distinct) + 1), key=lambda index: -chosen.difference(index).mean)
+    finite = [index for index in range(1, len(distinct) + 1) if not isnan(chosen.difference(index).mean)]
+    ranked = sorted(finite, key=lambda index: -chosen.difference(index).mean)
     best = ranked[:SHOWN]
     judged = _in_episodes(
         problem, architecture, [structures[distinct[index - 1][0]] for index in best], judging, generation
@@ -95,9 +97,9 @@ def compare_orders(
     ]
     good = [
         structures[number]
-        for index, group in enumerate(distinct, start=1)
+        for index in finite
         if not clearly_below(chosen.difference(index))
-        for number in group
+        for number in distinct[index - 1]
     ]
     above = _reduced(_in_all(good), len(architecture.tables))
     names = problem.names
@@ -116,7 +118,8 @@ def _in_episodes(
     variants = Variants(architecture)
     for structure in structures:
         variants.with_structure(structure, f"in the order {' '.join(_named(problem, structure))}")
-    return paired_episodes(problem, variants.agents, keys, generation, labels=variants.labels)
+    agents, labels = variants.agents, variants.labels
+    return paired_episodes(problem, agents, keys, generation, labels=labels, all_finite=False)
 
 
 def _named(problem: Problem, structure: Structure) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import TYPE_CHECKING
 
 from rich.console import Group
@@ -146,7 +147,7 @@ def _verdict(swap: Swap) -> str:
         return "never any change"
     if clearly_above(swap.change):
         return "better"
-    return "" if clearly_below(swap.change) else "no measurable change"
+    return "" if isnan(swap.change.mean) or clearly_below(swap.change) else "no measurable change"
 
 
 def _orders(orders: Sequence[Order], precedence: Precedence) -> RenderableType:

@@ -90,3 +90,20 @@ def test_an_error_names_the_design_and_the_episode():
 def test_episodes_are_named_by_the_seed_and_their_number():
     assert evaluation_keys(7, 3).tolist() == [episode_key(7, number) for number in range(3)]
     assert evaluation_keys(8, 3).tolist() != evaluation_keys(7, 3).tolist()
+
+
+def test_rewards_of_others_need_not_be_finite():
+    text = RICH.replace("level: -spread", "level: 1 / (0 if n == 0 and step == 12 else 1)")
+    problem = problem_of(text)
+    agents, keys = random_agents(problem, 3, 6), evaluation_keys(0, 40)
+    returns = returns_of(problem, agents, keys, 1, all_finite=False)
+    finite = np.isfinite(returns).all(axis=1)
+    sound, broken = np.flatnonzero(finite)[0], np.flatnonzero(~finite)[0]
+    chosen = agents[np.array([sound, broken])]
+    paired = paired_episodes(problem, chosen, keys, 1, all_finite=False)
+    np.testing.assert_array_equal(paired.returns, returns[[sound, broken]])
+    assert np.isnan(paired.difference(1).mean)
+    assert np.isnan(paired.difference(1).low)
+    assert paired.difference(1).count == 40
+    with pytest.raises(RewardNotFinite):
+        paired_episodes(problem, chosen[np.array([1, 0])], keys, 1, all_finite=False)

@@ -100,3 +100,10 @@ def test_behaviors_can_be_in_the_order_of_layers():
     assert [*found.expectation_share] == ["b", "a"]
     left_out = from_the_top(found, ["a"])
     assert [*left_out.control_share] == ["a", "b", "nobody"]
+
+
+def test_what_is_not_finite_has_no_interval():
+    for values in ([1.0, float("inf")], [float("inf"), float("-inf")], [1.0, float("nan")]):
+        found = interval(np.array(values))
+        assert found.count == 2
+        assert all(np.isnan(value) for value in (found.mean, found.sd, found.low, found.high))

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from bbsd.architecture import given_architecture
@@ -5,7 +6,7 @@ from bbsd.evaluation import agents_of, evaluation_key, evaluation_keys, interval
 from bbsd.evaluation.faults import read_faults
 from bbsd.explanation.faults import degradations
 from bbsd.explanation.worth import Appraisal
-from tests.unit.explanation.worth.planted import planted
+from tests.unit.explanation.worth.planted import needed, planted
 from tests.unit.problems import problem_of
 
 EPISODES = 60
@@ -101,3 +102,11 @@ def test_a_frame_has_a_row_for_each_fault(problem):
     assert table["change"].tolist() == [each.change.mean for each in found.faults]
     assert table["gain"].tolist() == [each.relearned.gain.mean for each in found.faults]
     assert repr(found) == f"<Degradations: mean return {found.returns.mean:.6g}, 3 faults>"
+
+
+def test_rewards_that_are_not_finite_under_a_fault_have_no_mean():
+    found = found_with(problem_of(needed()), "all", "behavior=work:random", relearn=True)
+    work, grab, _, random = found.faults
+    assert np.isnan([work.returns.mean, work.change.mean, random.returns.mean]).all()
+    assert np.isfinite([grab.returns.mean, grab.change.mean, grab.relearned.gain.mean]).all()
+    assert work.relearned.structure == found.structure

@@ -57,3 +57,5 @@ def test_means_have_half_their_intervals_behind_them():
     assert with_halves(intervals) == ["-549.08 ±1.12 ", "+2.50 ±10.50"]
     assert with_halves(intervals, signed=False)[1] == "2.50 ±10.50"
     assert with_halves([]) == []
+    missing = Interval(nan, nan, nan, nan, 9)
+    assert with_halves([missing, intervals[0]]) == ["not finite", "-549.08 ±1.12"]

@@ -66,3 +66,8 @@ def planted(robots=1, mood="integers(0, 1)", expects="x > 0", tempting="true", c
 def appraisal_of(text, episodes=200, compiled=False):
     problem = problem_of(text, compiled=compiled)
     return Appraisal(problem, given_architecture(problem), evaluation_key(0), episodes, 1)
+
+
+def needed():
+    """The text of a design whose rewards are infinite without `work`."""
+    return planted().replace("  work: x if took == 0 else 0", "  work: 1 / (x + took)")

@@ -7,7 +7,7 @@ from bbsd.architecture import Architecture
 from bbsd.evaluation import agents_of, evaluation_key, evaluation_keys, interval, returns_of, trace
 from bbsd.explanation.worth import Appraisal
 from tests.unit.architecture.designs import random_architecture
-from tests.unit.explanation.worth.planted import appraisal_of, planted
+from tests.unit.explanation.worth.planted import appraisal_of, needed, planted
 from tests.unit.problems import RICH, problem_of
 
 EPISODES = 30
@@ -132,3 +132,15 @@ def test_a_frame_has_a_row_for_each_behavior_and_rule(worth):
         repr(worth)
         == f"<Worth of rich: {len(worth.behaviors)} behaviors, mean return {worth.returns.mean:.6g}>"
     )
+
+
+def test_a_part_without_which_rewards_are_not_finite():
+    worth = appraisal_of(needed(), episodes=50).worth()
+    _, grab, work = worth.behaviors
+    assert np.isnan(work.dropped.mean)
+    assert np.isnan(work.random.mean)
+    assert np.isnan(work.rules[2].dropped.mean)
+    assert np.isfinite([grab.dropped.mean, grab.random.mean, work.rules[0].dropped.mean]).all()
+    assert not [
+        finding for finding in worth.findings if "work" in finding.subjects and finding.kind == "idle"
+    ]

@@ -1,7 +1,7 @@
 import numpy as np
 
 from bbsd.explanation.worth.orders import tried_orders
-from tests.unit.explanation.worth.planted import appraisal_of, planted
+from tests.unit.explanation.worth.planted import appraisal_of, needed, planted
 
 
 def test_all_orders_of_few_layers_are_tried():
@@ -47,3 +47,15 @@ def test_the_tables_prove_that_an_exchange_changes_nothing():
     assert swap.never
     assert swap.change.mean == swap.change.sd == 0
     assert not worth.swaps[1].never
+
+
+def test_an_order_whose_rewards_are_not_finite_is_none_of_the_best():
+    # Who always rests at 0 must stand below who works, else rewards are 1 / 0.
+    text = needed().replace("    excited: x > 9\n", "").replace("rest: {x: 0}", "rest: {x: 0, took: 0}")
+    worth = appraisal_of(text.replace("[guard, grab, work]", "[work, grab, guard]"), episodes=50).worth()
+    assert sum(order.alike for order in worth.orders) == 3
+    for order in worth.orders:
+        assert np.isfinite(order.change.mean)
+        assert order.structure.index("work") < order.structure.index("guard")
+    assert worth.precedence.tried == 6
+    assert ("work", "guard") in worth.precedence.above
