@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from bbsd.explanation.conditions import join_words
@@ -23,6 +24,8 @@ LONG = 90
 """Characters from which on it is not said where higher layers always act: they are listed above anyway."""
 MOST_INPUTS_IN_PROSE, MOST_RULES_IN_PROSE = 3, 8
 """Inputs and rules of a behavior up to which they are sentences; of more, they are a decision table."""
+MOST_USELESS_RULES = 2
+"""Useless rules of a behavior that are written out; of more, the numbers are given."""
 MOST_UNASKED = 4
 """Conditions in which a table says something else than the rules, and was never asked, that are listed, at most."""
 
@@ -214,7 +217,20 @@ def _nobody(conditions: Sequence[str]) -> list[str]:
 
 
 def _useless(useless: Sequence[Useless]) -> list[list[str]]:
-    lines = [line for each in useless for line in wrapped(_useless_text(each), "  ", "    ")]
+    """Return what is useless, many rules of a behavior in one sentence."""
+    texts: list[str] = []
+    for (behavior, why, is_rule), group in groupby(
+        useless, lambda each: (each.behavior, each.why, each.kind == "rule")
+    ):
+        alike = list(group)
+        numbers = [str(each.number) for each in alike]
+        if is_rule and len(alike) > MOST_USELESS_RULES:
+            texts.append(f"{behavior}, rules {join_words(numbers, 'and')}: {why}")
+        else:
+            texts += map(_useless_text, alike)
+    lines = [line for text in texts for line in wrapped(text, "  ", "    ")]
+    if any(not each.is_certain and not each.worth for each in useless):
+        lines += ["  (bbsd worth measures what the design would earn without them.)"]
     return [["What it could do without", *lines]] if lines else []
 
 

@@ -98,13 +98,13 @@ def _useless_rules(
         if isinstance(rule, Otherwise):
             continue
         cells = first == index
-        what = f"rule {index + 1}: {_rule_text(rule)}"
+        what, number = f"rule {index + 1}: {_rule_text(rule)}", index + 1
         if not (cells & cares.by_tables).any():
-            yield Useless(
-                "rule", module.name, what, "never decides anything, and can be removed", is_certain=True
-            )
+            why = "never decides anything, and can be removed"
+            yield Useless("rule", module.name, what, why, is_certain=True, number=number)
         elif visits is not None and not visits.asked[behavior][cells].any() and visits.asked[behavior].any():
-            yield Useless("rule", module.name, what, f"not used in {_watched(visits)}", is_certain=False)
+            why = f"not used in {_watched(visits)}"
+            yield Useless("rule", module.name, what, why, is_certain=False, number=number)
 
 
 def _first_rule(rules: Sequence[Rule], module: Module) -> NDArray[np.int64]:

@@ -146,6 +146,8 @@ class Useless:
     why: str
     is_certain: bool
     """Whether the tables say so; else it is so in the episodes looked at."""
+    number: int | None = None
+    """The number of the rule in the file, from 1; None of others."""
     worth: str = ""
     """What was measured without it, such as `return -0.02 to +0.01`; '' where nothing was."""
 

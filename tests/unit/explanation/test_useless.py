@@ -2,7 +2,7 @@ import numpy as np
 
 from bbsd.architecture import Architecture, architecture_of
 from bbsd.architecture.visits import Visits
-from bbsd.explanation import explain_architecture
+from bbsd.explanation import explain_architecture, explanation_text
 from bbsd.explanation.useless import depends_on
 from tests.unit.architecture.designs import meaning_of, small
 from tests.unit.explanation.test_layers import TWO_INPUTS, UPPER_NEAR, explained, visits, with_visits
@@ -92,3 +92,20 @@ def test_an_input_matters_if_cells_that_count_differ_along_it():
     table, sizes = np.array([0, 1, 0, 1]), [2, 2]
     assert depends_on(table, np.ones(4, bool), sizes) == [False, True]
     assert depends_on(table, np.array([True, False, False, True]), sizes) == [False, False]
+
+
+def test_many_rules_of_a_behavior_are_one_sentence():
+    rules = "".join(f"      - {{when: {{pace: {pace}}}, do: {'ab'[pace % 2]}}}\n" for pace in range(5))
+    behaviors = f"""
+  one:
+    inputs: {{pace: "values(floor(x), 0, 5)"}}
+    actions: {{a: {{x: 1}}, b: {{x: 2}}}}
+    rules:
+{rules}      - otherwise: a
+structure: [one]
+"""
+    meaning = meaning_of(small(behaviors))
+    counted = visits([[5, 5, 0, 0, 0, 0]], [[5, 5, 0, 0, 0, 0]], 10)
+    text = explanation_text(explain_architecture(meaning, architecture_of(meaning), counted))
+    assert "  one, rules 3, 4 and 5: not used in 10 episodes\n" in text
+    assert "  (bbsd worth measures what the design would earn without them.)\n" in text
