@@ -110,10 +110,10 @@ def _preventing(
     controller: NDArray[np.int64] | None,
     matters: Cells,
 ) -> tuple[int, ...]:
-    """Return who controls where a behavior has an action that never counts; where it has none, where it is excited."""
-    if controller is None or behavior not in architecture.structure:
-        return ()
+    """Return who controls where a behavior has an action that never counts; where these all count, where it is excited."""
     table = architecture.tables[behavior]
+    if controller is None or behavior not in architecture.structure or not table.any():
+        return ()
     own = np.broadcast_to(own_cells(space, behavior), space.sizes).ravel()
     lost = ~matters[own] & (controller >= 0)
     for choices in (table, np.ones_like(table)):
