@@ -110,7 +110,7 @@ def _preventing(
     controller: NDArray[np.int64] | None,
     matters: Cells,
 ) -> tuple[int, ...]:
-    """Return who controls where a behavior has an action that never counts; where these all count, where it is excited."""
+    """Return who controls where a behavior has an action that never counts; if all count, where it is excited."""
     table = architecture.tables[behavior]
     if controller is None or behavior not in architecture.structure or not table.any():
         return ()
