@@ -1,41 +1,42 @@
 """What each behavior earned: the reinforcement of the steps that it controlled, by reward term.
 
-The terms of a rollout are made of nodes of a graph. In a copy of the spec's meaning every reward term is divided into
-one for each behavior, and one for nobody, which is 0 where another one controls; so a rollout in detail adds up what is
-wanted here, and its kernel needs nothing new.
+A rollout gives what each behavior earned of all terms together, its credit. In a copy of the meaning every reward term
+has a weight, a constant that the kernel reads: with one weight 1 and the others 0, credit is that of one term. So one
+kernel does for all terms, and it is no larger than that of an evaluation.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import accumulate
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.evaluation import detailed_outcomes
+from bbsd.compiler import compile_meaning
+from bbsd.compiler.team import Team
+from bbsd.evaluation.episodes import batches_of
 from bbsd.evaluation.sums import column_sums
+from bbsd.expression.graph import Level
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
-    from bbsd.compiler import Problem
+    from bbsd.compiler import DetailedOutcome, Problem
     from bbsd.evaluation import Agents
-    from bbsd.expression.graph import Graph, Node
     from bbsd.language.meaning import Meaning
 
 Floats = npt.NDArray[np.float64]
+Keys = npt.NDArray[np.uint64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Earnings:
     """What one design earned in some episodes, and while which behavior controlled.
 
-    `by_term` (n_behaviors + 1, n_terms) and `returns` (n_episodes,) are of the mean over robots, the first per episode;
-    the last row is nobody's. `control` (n_behaviors + 1,) are robot-steps per episode, `met` (n_expectations,) those
-    after which an expectation held.
+    `by_term` (n_behaviors + 1, n_terms) is of the mean over robots, per episode; the last row is nobody's. `control`
+    (n_behaviors + 1,) are robot-steps per episode, `met` (n_expectations,) those after which an expectation held.
     """
 
-    returns: Floats
     by_term: Floats
     control: Floats
     met: Floats
@@ -43,63 +44,65 @@ class Earnings:
     """Mean length of an episode."""
 
 
-def earnings(problem: Problem, agent: Agents, keys: npt.NDArray[np.uint64], generation: int) -> Earnings:
-    """Run episodes of one design and return what each behavior earned in them, by reward term.
+def earnings(problem: Problem, agent: Agents, keys: Keys, generation: int) -> Earnings:
+    """Run episodes of one design, in which all rewards are finite, and return what each behavior earned by reward term.
 
     Args:
         problem: the spec.
         agent: the design, as the only agent.
         keys: name the random streams of the episodes, (n_episodes,).
         generation: in whose constants they run.
-
-    Raises:
-        RewardNotFinite: a reward was infinite or not a number.
     """
-    divided = replace(problem, meaning=_divided(problem.meaning))
-    outcomes = list(detailed_outcomes(divided, agent, keys, generation))
-    by_term, control, met, steps = (
-        column_sums(np.stack([column_sums(_columns(getattr(outcome, name))) for outcome in outcomes]))
-        / len(keys)
-        for name in ("terms", "control", "expectations_met", "steps_taken")
-    )
-    returns = np.concatenate([outcome.returns for outcome in outcomes])
+    meaning = _weighted(problem.meaning)
+    weighted = compile_meaning(meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs)
     n_terms = len(problem.meaning.episode.reward)
-    return Earnings(returns, by_term.reshape(-1, n_terms), control, met, float(steps[0]))
+    constants = np.array(meaning.constants.vector(generation))
+    sums = []
+    for term in range(n_terms):
+        constants[len(constants) - n_terms :] = np.arange(n_terms) == term
+        sums.append(_sums(weighted, agent, keys, constants))
+    credit, control, met, steps = (np.array(parts) / len(keys) for parts in zip(*sums, strict=True))
+    return Earnings(credit.T, control[0], met[0], float(steps[0, 0]))
 
 
-def _columns(values: Floats) -> Floats:
-    return values.reshape(len(values), -1)
-
-
-def _divided(meaning: Meaning) -> Meaning:
-    """Return the meaning with a reward term for each behavior, and one for nobody, in place of each reward term."""
-    graph, episode = meaning.graph.fork(), meaning.episode
-    graph.bounded = False
-    counts = [len(module.actions) for module in episode.modules]
-    firsts = [1, *accumulate(counts, initial=1)]
-    nothing = graph.number(0.0)
-
-    def controls(behavior: int, choice: Node) -> Node:
-        if behavior == len(counts):
-            return graph.apply("==", choice, graph.cell(0))
-        return _within(choice, firsts[behavior + 1], firsts[behavior + 1] + counts[behavior], graph)
-
-    reward = {
-        f"{term}_{behavior}": tuple(
-            graph.apply("select", controls(behavior, choice), node, nothing)
-            for choice, node in zip(episode.choices, nodes, strict=True)
+def _sums(problem: Problem, agent: Agents, keys: Keys, constants: Floats) -> tuple[Floats, ...]:
+    """Return the sums over all episodes of credit, control, expectations met and steps taken."""
+    parts = []
+    for _, batch, streams in batches_of(agent, keys):
+        team = Team(problem.kernels, batch.pools, batch.members, constants)
+        parts.append(
+            [column_sums(each) for each in _summed(team.detailed_episode(streams, batch.structures))]
         )
-        for behavior in range(len(counts) + 1)
-        for term, nodes in enumerate(episode.reward.values())
+    return tuple(column_sums(np.stack(each)) for each in zip(*parts, strict=True))
+
+
+def _summed(outcome: DetailedOutcome) -> tuple[Floats, ...]:
+    return outcome.credit, outcome.control, outcome.expectations_met, outcome.steps_taken[:, np.newaxis]
+
+
+def _weighted(meaning: Meaning) -> Meaning:
+    """Return the meaning with a weight for each reward term, the last constants."""
+    graph, reward, constants = meaning.graph.fork(), meaning.episode.reward, meaning.constants
+    graph.bounded = False
+    first, one = len(constants.scalars), graph.number(1.0)
+    weights = [graph.leaf("constant", first + k, Kind.NUMBER, Level.CALL) for k in range(len(reward))]
+    terms = {
+        term: tuple(graph.apply("*", weight, node) for node in nodes)
+        for (term, nodes), weight in zip(reward.items(), weights, strict=True)
     }
-    named = {f"earned_{name}": nodes for name, nodes in reward.items()}
-    return replace(meaning, graph=graph, episode=replace(episode, reward=named))
-
-
-def _within(choice: Node, first: int, end: int, graph: Graph) -> Node:
-    """Return whether a choice is one of some actions that follow one another."""
-    if end - first == 1:
-        return graph.apply("==", choice, graph.cell(first))
-    return graph.apply(
-        "&", graph.apply(">=", choice, graph.cell(first)), graph.apply("<", choice, graph.cell(end))
+    name = "weights"
+    while name in constants.values:
+        name += "_"
+    ones = (one,) * len(weights)
+    return replace(
+        meaning,
+        graph=graph,
+        constants=replace(
+            constants,
+            values={**constants.values, name: ones},
+            scalars=(*constants.scalars, *ones),
+            leaves={**constants.leaves, name: tuple(weights)},
+            wholes=(*constants.wholes, *(True for _ in weights)),
+        ),
+        episode=replace(meaning.episode, reward=terms),
     )
