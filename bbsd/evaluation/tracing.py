@@ -14,8 +14,8 @@ from bbsd.evaluation.scene import scene, starting_values, values_of
 from bbsd.evaluation.traced import Trace
 from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.partitions import is_partition
+from bbsd.language.meaning.proofs.whole_numbers import whole_values
 from bbsd.language.meaning.situation import definitions_at_the_start
-from bbsd.language.meaning.whole_numbers import whole_values
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -18,9 +18,9 @@ from bbsd.language.meaning.definitions import (
 from bbsd.language.meaning.episode import elaborate_episode
 from bbsd.language.meaning.meaning import Meaning, seed_key
 from bbsd.language.meaning.names import Names
+from bbsd.language.meaning.proofs.whole_numbers import report_fractions
 from bbsd.language.meaning.rates import evaluate_rates
 from bbsd.language.meaning.structure import elaborate_structure
-from bbsd.language.meaning.whole_numbers import report_fractions
 
 if TYPE_CHECKING:
     from bbsd.language.models import Spec

@@ -12,7 +12,7 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import KEY
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Call, Name, Span
-from bbsd.language.meaning.coverage import covers_everything
+from bbsd.language.meaning.proofs.coverage import covers_everything
 from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
 

@@ -2,7 +2,7 @@ import pytest
 
 from bbsd.expression import elaboration
 from bbsd.expression.syntax.parsing import parse
-from bbsd.language.meaning.coverage import covers_everything
+from bbsd.language.meaning.proofs.coverage import covers_everything
 from tests.unit.expression.scopes import scope
 
 

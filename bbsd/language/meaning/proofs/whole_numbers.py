@@ -3,26 +3,41 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from bbsd.expression.graph import needed, whole_nodes
 from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.constants import GENERATION_SLOT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Gather, Slot
     from bbsd.expression.scope import Findings
     from bbsd.language.meaning.constants import Constants
-    from bbsd.language.meaning.episode import Episode
 
 MAX_SPREAD = 100
 """Steps in which a fraction can spread from one slot to the next; if it spreads on, no slot counts as whole."""
 
 
-def report_fractions(episode: Episode | None, constants: Constants, findings: Findings) -> None:
+class Values(Protocol):
+    """What an episode computes, as far as it is looked at here."""
+
+    @property
+    def start(self) -> Mapping[Slot, Node]:
+        """What the slots hold at the start."""
+
+    @property
+    def after(self) -> Mapping[Slot, Node]:
+        """What they hold after a step."""
+
+    @property
+    def definitions(self) -> Mapping[Slot, Node]:
+        """What is defined in each step."""
+
+
+def report_fractions(episode: Values | None, constants: Constants, findings: Findings) -> None:
     """Report every value used as an index or in values(...) that may be a fraction.
 
     Where the episode could not be understood, all slots count as whole.
@@ -37,7 +52,7 @@ def report_fractions(episode: Episode | None, constants: Constants, findings: Fi
             findings.report(path, "BB064", message, span, "round it: floor(...) or round(...)")
 
 
-def whole_values(episode: Episode, constants: Constants) -> set[Slot]:
+def whole_values(episode: Values, constants: Constants) -> set[Slot]:
     """Return the slots and the definitions that provably always hold whole numbers."""
     is_whole_constant = cache(constants.whole)
     slots = {**_whole_slots(episode, is_whole_constant), GENERATION_SLOT: True}
@@ -52,7 +67,7 @@ def _slots_read(nodes: Sequence[Node]) -> dict[Slot, bool]:
     return {node.slot: True for node in needed(nodes) if node.operation == "slot"}
 
 
-def _whole_slots(episode: Episode, is_whole_constant: Callable[[int | Gather], bool]) -> dict[Slot, bool]:
+def _whole_slots(episode: Values, is_whole_constant: Callable[[int | Gather], bool]) -> dict[Slot, bool]:
     """Say of each slot whether it always holds a whole number: in the largest set that starts so and stays so."""
     whole: dict[Slot, bool] = {slot: node.kind is Kind.NUMBER for slot, node in episode.start.items()}
     for _ in range(MAX_SPREAD):
