@@ -11,6 +11,7 @@ from pathlib import Path
 from bbsd.errors import Diagnosis, Place, SpecError
 
 MAX_BYTES = 1_000_000  # the specs that people write have a few kilobytes
+MOST_NAMED = 3
 BYTE_ORDER_MARK = "\ufeff"
 LINE_BREAK = re.compile(r"\r\n|\r|\n")
 
@@ -73,12 +74,20 @@ def _content(file: str) -> bytes:
     except FileNotFoundError:
         raise _refused(file, "BB001", "there is no such file") from None
     except IsADirectoryError:
-        raise _refused(file, "BB001", "this is a directory, not a file") from None
+        raise _refused(file, "BB001", _folder_text(Path(file))) from None
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         raise _refused(file, "BB001", f"the file cannot be read: {_reason(error)}") from None
     if len(content) > MAX_BYTES:
         raise _refused(file, "BB002", "the file has more than 1 MB, which no spec needs")
     return content
+
+
+def _folder_text(folder: Path) -> str:
+    """Return what is wrong with a folder in place of a file, and which files in it may be meant."""
+    files = sorted(map(str, folder.glob("*.yaml")))
+    more = f" and {len(files) - MOST_NAMED} more" if len(files) > MOST_NAMED else ""
+    choice = f"; give a file in it: {', '.join(files[:MOST_NAMED])}{more}" if files else ""
+    return f"this is a folder, not a file{choice}"
 
 
 def _reason(error: OSError | ValueError) -> str:

@@ -31,7 +31,17 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
 
 
 def test_a_directory_is_no_file(tmp_path: Path) -> None:
-    assert refusal(tmp_path).message == "this is a directory, not a file"
+    assert refusal(tmp_path).message == "this is a folder, not a file"
+
+
+def test_files_in_a_folder_are_named(tmp_path: Path) -> None:
+    for name in ("spec.yaml", "architecture.yaml"):
+        (tmp_path / name).touch()
+    files = f"{tmp_path / 'architecture.yaml'}, {tmp_path / 'spec.yaml'}"
+    assert refusal(tmp_path).message == f"this is a folder, not a file; give a file in it: {files}"
+    for name in ("x.yaml", "y.yaml"):
+        (tmp_path / name).touch()
+    assert refusal(tmp_path).message.endswith(f"{files}, {tmp_path / 'x.yaml'} and 1 more")
 
 
 def test_a_name_that_no_file_can_have_is_a_diagnosis(tmp_path: Path) -> None:
