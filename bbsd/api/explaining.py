@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,8 +19,13 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.architecture.visits import Visits
 
+EPISODES_OF_WORTH = 1000
+"""Episodes in which it is measured what a design would earn without a part, by default."""
 
-def explain(spec: AnySpec, *, seed: int = 0, episodes: int = 0, overrides: Sequence[str] = ()) -> Explanation:
+
+def explain(
+    spec: AnySpec, *, seed: int = 0, episodes: int = 0, worth: bool = False, overrides: Sequence[str] = ()
+) -> Explanation:
     """Describe in words what the design of a spec does, layer by layer.
 
     Of a run, it uses what the run has kept of how often each cell was asked.
@@ -28,16 +34,38 @@ def explain(spec: AnySpec, *, seed: int = 0, episodes: int = 0, overrides: Seque
         spec: A design: a spec without holes.
         seed: Seed of the draws in constants, and of the episodes.
         episodes: Count anew, in so many episodes, how often each cell is asked.
+        worth: Also measure, in 1,000 or so many episodes, what the design would earn without what seems useless.
         overrides: Values that replace those of the spec.
 
     Raises:
-        SpecError: with all mistakes of the spec.
+        SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
     architecture = architecture_of(loaded.meaning)
     visits = _visits(spec, loaded, architecture, seed, episodes, is_changed=bool(overrides))
-    return explain_architecture(loaded.meaning, architecture, visits)
+    if worth and visits is None:
+        visits = _counted(loaded, architecture, seed, EPISODES_OF_WORTH)
+    explanation = explain_architecture(loaded.meaning, architecture, visits)
+    if not worth:
+        return explanation
+    return _with_worth(loaded, architecture, explanation, seed, episodes or EPISODES_OF_WORTH)
+
+
+def _with_worth(
+    loaded: Loaded, architecture: Architecture, explanation: Explanation, seed: int, episodes: int
+) -> Explanation:
+    """Return the explanation with what the design would earn without what seems useless."""
+    from bbsd.api.compiling import located_reward_errors
+    from bbsd.compiler import compile_meaning
+    from bbsd.evaluation import evaluation_keys
+    from bbsd.explanation.worth.without import with_worth
+
+    generation = loaded.spec.design.coevolution.generations
+    problem, keys = compile_meaning(loaded.meaning), evaluation_keys(seed, episodes)
+    with located_reward_errors(loaded):
+        useless = with_worth(problem, architecture, explanation.useless, keys, generation)
+    return replace(explanation, useless=useless)
 
 
 def _visits(
@@ -45,11 +73,7 @@ def _visits(
 ) -> Visits | None:
     """Return the visits that are wanted, or those that a run has kept; None where there are none."""
     if episodes:
-        from bbsd.api.compiling import located_reward_errors
-        from bbsd.evaluation.visits import visits_of
-
-        with located_reward_errors(loaded):
-            return visits_of(loaded.meaning, architecture, seed, episodes)
+        return _counted(loaded, architecture, seed, episodes)
     if is_changed or isinstance(spec, Loaded):
         return None
     path = Path(spec)
@@ -57,3 +81,11 @@ def _visits(
     if path.is_dir() or path.name == ARCHITECTURE:
         return read_visits(folder, [*loaded.spec.behaviors])
     return None
+
+
+def _counted(loaded: Loaded, architecture: Architecture, seed: int, episodes: int) -> Visits:
+    from bbsd.api.compiling import located_reward_errors
+    from bbsd.evaluation.visits import visits_of
+
+    with located_reward_errors(loaded):
+        return visits_of(loaded.meaning, architecture, seed, episodes)

@@ -134,6 +134,7 @@ def evaluate(
     if relearn and not fault:
         raise typer.BadParameter("--relearn needs --fault")
     chosen = read_episode(episode)
+    _require_use(chosen, values, trace, plot)
     if exact and isinstance(chosen, str):
         raise typer.BadParameter(f"--episode {chosen} is among random episodes, so it excludes --exact")
     _require_outputs(returns, trace, plot)
@@ -180,6 +181,16 @@ def evaluate(
 def _require_expectations(loaded: "Loaded") -> None:
     if all(behavior.expects is None for behavior in loaded.spec.behaviors.values()):
         raise NothingExpected("--expect-at-least: no behavior of this spec has an expectation")
+
+
+def _require_use(
+    chosen: "int | Rank", values: list[str] | None, trace: Path | None, plot: Path | None
+) -> None:
+    """Raise BadParameter for options that would have no effect."""
+    if values and not plot:
+        raise typer.BadParameter("--show needs --plot-to")
+    if chosen and not (trace or plot):
+        raise typer.BadParameter("--episode needs --trace or --plot-to")
 
 
 def _require_outputs(returns: Path | None, trace: Path | None, plot: Path | None) -> None:

@@ -86,10 +86,18 @@ def read_faults(texts: Iterable[str], meaning: Meaning) -> list[Fault]:
     faults = dict[Fault, None]()
     for text in texts:
         if text == ALL:
-            faults |= dict.fromkeys(Fault("behavior", name, "silent") for name in meaning.spec.behaviors)
+            faults |= dict.fromkeys(
+                Fault("behavior", name, "silent") for name in _highest_first(meaning.spec)
+            )
         else:
             faults[read_fault(text, meaning)] = None
     return list(faults)
+
+
+def _highest_first(spec: Spec) -> list[str]:
+    """Return the behaviors, those of the structure first, as far as it is given."""
+    names = [*(spec.structure or ()), *spec.behaviors]
+    return list(dict.fromkeys(name for name in names if name in spec.behaviors))
 
 
 def read_fault(text: str, meaning: Meaning) -> Fault:

@@ -9,7 +9,7 @@ import numpy as np
 from bbsd.architecture.boxes import FREE, KEEP, cover
 from bbsd.architecture.rules import cell_words, n_words_of, sizes_of
 from bbsd.architecture.spec_changes import MOST_WORDS
-from bbsd.explanation.words import Condition
+from bbsd.explanation.words import Condition, Place
 from bbsd.language.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
@@ -41,8 +41,8 @@ def conditions_of(box: Box, inputs: Inputs) -> tuple[Condition, ...]:
     )
 
 
-def condition_texts(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[str, ...]:
-    """Return conditions, one of which holds in each cell of `cells`, and none outside `cells` and `allowed`.
+def places(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[Place, ...]:
+    """Return places, one of which holds each cell of `cells`, and none a cell outside `cells` and `allowed`.
 
     Both are (n_cells,). The result is empty if the conditions would be too long to read.
     """
@@ -51,7 +51,7 @@ def condition_texts(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs
     return (
         ()
         if n_words_of(boxes, inputs) > MOST_WORDS
-        else tuple(condition_text(box, inputs) for box, _ in boxes)
+        else tuple(Place(condition_text(box, inputs), conditions_of(box, inputs)) for box, _ in boxes)
     )
 
 

@@ -7,7 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.architecture.rules import cell_words
-from bbsd.explanation.lines import LINE_WIDTH, table_lines, wrapped
+from bbsd.explanation.lines import LINE_WIDTH, percent, table_lines, wrapped
 from bbsd.language.meaning.partitions import TRUTH_CELLS
 from bbsd.language.meaning.tables.symbols import SYMBOLS
 from bbsd.language.models import NO_ACTION_TEXT
@@ -151,14 +151,14 @@ def _decision(layer: LayerInWords, cells: dict[str, int]) -> str:
 
 
 def whole_table(explanation: Explanation) -> list[str]:
-    """Return the whole architecture as a table: which command in which situation, by which module."""
+    """Return the whole architecture as a table: which command in which situation, by which behavior."""
     if not explanation.rows:
         return ["No behavior ever controls, or the rows would be too many to read."]
     watched = explanation.watched
-    head = [*(["time"] if watched else []), "command", "layer", "module", "where"]
+    head = [*(["time"] if watched else []), "command", "layer", "behavior", "where"]
     rows = [
         [
-            *([f"{100 * (row.controlled or 0) / max(1, watched.robot_steps):.2f} %"] if watched else []),
+            *([percent((row.controlled or 0) / max(1, watched.robot_steps))] if watched else []),
             row.decision,
             str(row.layer),
             row.behavior,
@@ -167,7 +167,7 @@ def whole_table(explanation: Explanation) -> list[str]:
         for row in explanation.rows
     ]
     if explanation.nobody_cells or (watched and watched.nobody):
-        share = f"{100 * watched.nobody / max(1, watched.robot_steps):.2f} %" if watched else ""
+        share = percent(watched.nobody / max(1, watched.robot_steps)) if watched else ""
         rows.append([*([share] if watched else []), "(none)", "", "nobody", "no row above holds"])
     shift = 1 if watched else 0
     return table_lines(head, rows, "", frozenset({*range(shift), shift + 1}))

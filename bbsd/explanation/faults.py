@@ -17,10 +17,9 @@ from bbsd.evaluation.frames import frame
 from bbsd.evaluation.sums import mean, row_means
 from bbsd.explanation.worth.orders import tried_orders
 from bbsd.explanation.worth.results import clearly_above
+from bbsd.explanation.worth.variants import RANDOM_TABLES, with_random_tables
 from bbsd.kernel.keys import keys as keys_of
 from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.language.meaning.tables.table import OPEN_CELL
-from bbsd.solver.paper.genetics import random_pool
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -33,8 +32,7 @@ Floats = npt.NDArray[np.float64]
 Keys = npt.NDArray[np.uint64]
 Structure = npt.NDArray[np.int64]
 
-ORDERS, TABLES = name_word("orders around a fault"), name_word("random table of a fault")
-RANDOM_TABLES = 25
+ORDERS = name_word("orders around a fault")
 """Random tables of a behavior whose fault is to be random; each has its part of the episodes."""
 
 
@@ -126,13 +124,7 @@ class Disturbed:
         behavior = self.problem.names.index(self.fault.name)
         if self.fault.kind == "silent":
             return design.held(behavior)
-        shape, pools = self.problem.tables[behavior], list(design.pools)
-        is_open = np.full(shape.n_cells, OPEN_CELL, np.uint8)
-        stream = fold(fold(self.key, TABLES), word_of(behavior))
-        pools[behavior] = random_pool(stream, self.n_tables, is_open, shape.n_actions)
-        members = np.zeros((self.n_tables, len(pools)), np.int64)
-        members[:, behavior] = np.arange(self.n_tables)
-        return Agents(tuple(pools), members, np.tile(self.architecture.structure, (self.n_tables, 1)))
+        return with_random_tables(self.problem, self.architecture, behavior, self.key, self.n_tables)
 
     def returns(self, structures: Sequence[Structure], keys: Keys) -> Floats:
         """Run the design in some orders, (n_orders, n_episodes); each random table has its part of the episodes."""

@@ -41,6 +41,11 @@ def hanging(head: str, column: int, sentences: Sequence[str]) -> list[str]:
     return [head + lines[0][column:], *lines[1:]] if len(head) == column else [head.rstrip(), *lines]
 
 
+def percent(share: float) -> str:
+    """Return a share in percent with one decimal, as all commands show shares."""
+    return f"{100 * share:.1f} %"
+
+
 def table_lines(
     head: Sequence[str], rows: Sequence[Sequence[str]], indent: str = "", right: frozenset[int] = frozenset()
 ) -> list[str]:

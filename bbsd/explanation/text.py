@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from bbsd.explanation.conditions import join_words
 from bbsd.explanation.decision_tables import decision_table, whole_table
-from bbsd.explanation.lines import LINE_WIDTH, hanging, wrapped
+from bbsd.explanation.lines import LINE_WIDTH, hanging, percent, wrapped
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.explanation.vocabulary import GlossaryEntry
-    from bbsd.explanation.words import Explanation, LayerInWords, Useless, Watched
+    from bbsd.explanation.words import Explanation, LayerInWords, Place, Useless, Watched
 
 NAME_WIDTH = 24
 """The widest column of names; a longer name stands on a line of its own."""
@@ -145,7 +145,9 @@ def _overruled(layer: LayerInWords) -> list[str]:
         return [f"Never controls: {one}{by} above always does."]
     if not layer.covered or not by:
         return []
-    lost, left = ("; or where ".join(conditions) for conditions in (layer.covered, layer.effective))
+    lost, left = (
+        "; or where ".join(place.where for place in places) for places in (layer.covered, layer.effective)
+    )
     if min(map(len, filter(None, (lost, left)))) > LONG:
         return [f"Overruled by {by} in part."]
     if layer.effective and len(left) < len(lost):
@@ -186,8 +188,8 @@ def _situations(explanation: Explanation) -> list[str]:
     (first, cells), *others = counts
     if not others:
         return ["Nobody ever controls." if first == "nobody" else f"{first} always controls."]
-    shares = [f"{first} controls {cells}", *(f"{name} {count}" for name, count in others)]
-    situations = f"the {explanation.possible_cells} situations that the behaviors can tell apart"
+    shares = [f"{first} controls {cells:,}", *(f"{name} {count:,}" for name, count in others)]
+    situations = f"the {explanation.possible_cells or 0:,} situations that the behaviors can tell apart"
     text = f"Of {situations}, {join_words(shares, 'and')}."
     return [*wrapped(f"{text} (This counts situations, not time.)"), *_nobody(explanation.nobody)]
 
@@ -201,16 +203,19 @@ def _time(explanation: Explanation) -> list[str]:
     counts = [(layer.behavior, layer.controlled or 0) for layer in explanation.layers]
     counts += [("nobody", watched.nobody)] if watched.nobody else []
     ordered = sorted(counts, key=lambda each: -each[1])
-    (first, share), *others = [(name, f"{100 * count / steps:.3g} %") for name, count in ordered]
+    (first, share), *others = [(name, percent(count / steps)) for name, count in ordered]
     shares = [f"{first} controlled {share} of the time", *(f"{name} {share}" for name, share in others)]
     return wrapped(f"In {_episodes(watched)}, {join_words(shares, 'and')}.")
 
 
-def _nobody(conditions: Sequence[str]) -> list[str]:
-    if not conditions:
+def _nobody(places: Sequence[Place]) -> list[str]:
+    if not places:
         return []
-    n_more = len(conditions) - MAX_PLACES
-    listed = [*conditions[:MAX_PLACES], *([f"in {n_more} more places"] if n_more > 0 else [])]
+    n_more = len(places) - MAX_PLACES
+    listed = [
+        *(place.where for place in places[:MAX_PLACES]),
+        *([f"in {n_more} more places"] if n_more > 0 else []),
+    ]
     return [
         line for each in _alternatives("Nobody controls where ", listed) for line in wrapped(each, "", "    ")
     ]
@@ -219,24 +224,28 @@ def _nobody(conditions: Sequence[str]) -> list[str]:
 def _useless(useless: Sequence[Useless]) -> list[list[str]]:
     """Return what is useless, many rules of a behavior in one sentence."""
     texts: list[str] = []
-    for (behavior, why, is_rule), group in groupby(
-        useless, lambda each: (each.behavior, each.why, each.kind == "rule")
+    for (behavior, why, is_rule, _), group in groupby(
+        useless, lambda each: (each.behavior, each.why, each.kind == "rule", each.worth)
     ):
         alike = list(group)
         numbers = [str(each.number) for each in alike]
         if is_rule and len(alike) > MOST_USELESS_RULES:
-            texts.append(f"{behavior}, rules {join_words(numbers, 'and')}: {why}")
+            texts.append(f"{behavior}, rules {join_words(numbers, 'and')}: {why}{_worth(alike[0], 'each')}")
         else:
             texts += map(_useless_text, alike)
     lines = [line for text in texts for line in wrapped(text, "  ", "    ")]
-    if any(not each.is_certain and not each.worth for each in useless):
-        lines += ["  (bbsd worth measures what the design would earn without them.)"]
+    if any(not each.is_certain and not each.worth and each.kind != "input" for each in useless):
+        lines += ["  (bbsd explain --worth measures what the design would earn without them.)"]
     return [["What it could do without", *lines]] if lines else []
 
 
 def _useless_text(useless: Useless) -> str:
     what = f"{useless.behavior}, {useless.what}" if useless.what else useless.behavior
-    return f"{what}: {useless.why}{f' ({useless.worth})' if useless.worth else ''}"
+    return f"{what}: {useless.why}{_worth(useless, 'it')}"
+
+
+def _worth(useless: Useless, it: str) -> str:
+    return f"; without {it} {useless.worth}" if useless.worth else ""
 
 
 def _glossary(title: str, entries: Sequence[GlossaryEntry]) -> list[list[str]]:

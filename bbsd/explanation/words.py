@@ -21,6 +21,14 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
+class Place:
+    """Where something holds: in words, '' everywhere, and the condition for programs as in `RuleInWords`."""
+
+    where: str
+    when: tuple[Condition, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class RuleInWords:
     """The decision where a condition holds ('' is otherwise), and whether higher layers always prevent it.
 
@@ -102,8 +110,8 @@ class LayerInWords:
     """The decision of each cell, '' where the cell does not count; empty for tables that nobody reads."""
     counted: tuple[CellsInWords, ...]
     kinds: CellKinds
-    covered: tuple[str, ...]
-    effective: tuple[str, ...]
+    covered: tuple[Place, ...]
+    effective: tuple[Place, ...]
     overruled_by: tuple[str, ...]
     never_asked: tuple[NeverAsked, ...]
     cells: int | None
@@ -149,7 +157,7 @@ class Useless:
     number: int | None = None
     """The number of the rule in the file, from 1; None of others."""
     worth: str = ""
-    """What was measured without it, such as `return -0.02 to +0.01`; '' where nothing was."""
+    """How the return changes without it, such as `return -0.02 to +0.01`; '' where that was not measured."""
 
 
 class Watched(NamedTuple):
@@ -175,7 +183,7 @@ class Explanation:
     joint_size: int
     possible_cells: int | None
     """The joint cells that may occur: those that the expressions of the spec do not exclude."""
-    nobody: tuple[str, ...]
+    nobody: tuple[Place, ...]
     nobody_cells: int | None
     rows: tuple[Row, ...]
     """The whole architecture, the most visited rows first where visits are known; empty if too long to read."""

@@ -43,9 +43,10 @@ def compare(
     lanes: Lanes = 40,
     jobs: Jobs = 1,
 ) -> None:
-    """Show how designs differ: in what they do, in their rules and order, and in what they earn.
+    """Show how designs differ.
 
-    All run the same episodes. Differences are those of the other design minus A.
+    That is: in what they do, in their rules and order, and in what they earn. All run the same episodes.
+    Differences are those of the other design minus A.
     """
     first, *others = designs
     if not others:

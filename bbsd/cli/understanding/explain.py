@@ -37,6 +37,12 @@ def explain(
             show_default="what the run has kept",
         ),
     ] = None,
+    worth: Annotated[
+        bool,
+        typer.Option(
+            "--worth", help="Also measure what the design would earn without what seems useless, in episodes."
+        ),
+    ] = False,
     form: Annotated[
         ExplanationFormat,
         typer.Option(
@@ -45,13 +51,16 @@ def explain(
         ),
     ] = ExplanationFormat.TEXT,
 ) -> None:
-    """Describe what a design does, layer by layer, by the shortest rules that say it, and what it could do without.
+    """Describe what a design does by the shortest rules.
 
-    Of a run, it says how often each behavior controlled; of another file with --episodes.
+    Layer by layer, and what it could do without. Of a run, it says how often each behavior controlled; of another file
+    with --episodes.
     """
     from bbsd.explanation import dot_text, explanation_text, mermaid_text, table_text, tree_text
 
-    explanation = bbsd.explain(spec, seed=seed, episodes=episodes or 0, overrides=overrides or ())
+    explanation = bbsd.explain(
+        spec, seed=seed, episodes=episodes or 0, worth=worth, overrides=overrides or ()
+    )
     if explanation.watched is None and (spec / VISITS).is_file():
         say(f"the visits that {escape(str(spec))} has kept are of another design; --episodes N counts anew")
     if form is ExplanationFormat.JSON:

@@ -24,7 +24,7 @@ def report(
         ),
     ] = None,
     output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="PAGE.html", help="The file of the page.")
+        Path, typer.Option("-o", "--out", "--output", metavar="PAGE.html", help="The file of the page.")
     ] = Path("page.html"),
     episodes: Annotated[int, typer.Option(metavar="N", min=1, help="Number of episodes.")] = 1000,
     faults: Annotated[
@@ -39,9 +39,10 @@ def report(
     seed: Seed = 0,
     overrides: Overrides = None,
 ) -> None:
-    """Write one page on a design: what it earns, why it does what it does, and episodes to replay.
+    """Write one page on a design.
 
-    The page is a single file that works offline, in any browser.
+    It shows what the design earns, why it does what it does, and episodes to replay. The page is a single file that
+    works offline, in any browser.
     """
     require_writable_file(output)
     from bbsd.report.progress import episode_listener

@@ -32,10 +32,11 @@ def tidy(
     ] = False,
     diff: Annotated[bool, typer.Option("--diff", help="Write nothing; print the changes as a diff.")] = False,
 ) -> None:
-    """Offer a design in fewer words, proven to do the same in every joint cell.
+    """Offer a design in fewer words that does the same.
 
-    Rules become as short as they can be, also over cells in which a higher layer always acts; behaviors that never
-    control leave the structure. Comments and layout stay elsewhere.
+    Proven in every situation that its behaviors can tell apart. Rules become as short as they can be, also over cells
+    in which a higher layer always acts; behaviors that never control leave the structure. Comments and layout stay
+    elsewhere.
     """
     if out is not None:
         require_writable_file(out)
@@ -58,7 +59,7 @@ def _what_changed(found: "Shorter") -> list[str]:
     if not found.is_changed:
         return ["nothing can be shorter"]
     removed = [f"{name}: never controls, and left the structure" for name in found.removed]
-    proof = f"the same in all {found.joint_cells:,} joint cells"
+    proof = f"the same in all {found.joint_cells:,} situations"
     return [*map(_shortened_text, found.shortened), *removed, proof]
 
 

@@ -104,7 +104,7 @@ def _otherwise(found: Otherwise) -> list[str]:
 
 def _perception(found: Otherwise) -> str:
     where = {
-        "all": f"of all {found.joint_size:,} joint cells",
+        "all": f"all {found.joint_size:,} situations were tried",
         "pairs": "single inputs and pairs of inputs were tried",
         "some pairs": "single inputs and pairs of inputs were tried, but for those with too many cells",
     }[found.tried]
@@ -112,8 +112,8 @@ def _perception(found: Otherwise) -> str:
         return f"No change of what it perceived ({where})."
     changes = [f"{each.input} {each.becomes} instead of {each.was}" for each in found.inputs]
     count = "one input" if len(changes) == 1 else f"{len(changes)} inputs"
-    others = f"; {found.equally_small} do with {count}" if found.equally_small > 1 else ""
-    nearest = ", the nearest" if others else ""
+    others = f"; of {found.equally_small} ways with {count}" if found.equally_small > 1 else ""
+    nearest = " this is the nearest" if others else ""
     return f"Perceiving {join_words(changes, 'and')}; then {found.then} ({where}{others}{nearest})."
 
 
@@ -139,7 +139,7 @@ def _redesign(found: Otherwise) -> list[str]:
 
 
 def _way_text(way: Way, found: Otherwise) -> str:
-    elsewhere = f" (changes {way.elsewhere:,} of {found.joint_size:,} joint cells)" if way.elsewhere else ""
+    elsewhere = f" (changes {way.elsewhere:,} of {found.joint_size:,} situations)" if way.elsewhere else ""
     return f"{join_words([*map(_change_text, way.changes)], 'and also')}; then {way.then}{elsewhere}"
 
 

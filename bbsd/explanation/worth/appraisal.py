@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.architecture import Architecture, behavior_keys, joint_space
-from bbsd.evaluation import Agents, Interval, interval, paired_episodes, returns_of
+from bbsd.evaluation import Interval, interval, paired_episodes, returns_of
 from bbsd.evaluation.situations import situations
 from bbsd.evaluation.sums import row_means
 from bbsd.explanation.worth.activity import Activity, activities
@@ -20,11 +20,9 @@ from bbsd.explanation.worth.orders import compare_orders, swapped
 from bbsd.explanation.worth.results import BehaviorWorth, RuleWorth, Swap, Worth
 from bbsd.explanation.worth.robots import robots_alike
 from bbsd.explanation.worth.rules import single_rules
-from bbsd.explanation.worth.variants import Variants
+from bbsd.explanation.worth.variants import RANDOM_TABLES, Variants, with_random_tables
 from bbsd.kernel.keys import keys as keys_of
-from bbsd.kernel.streams import fold, name_word, word_of
-from bbsd.language.meaning.tables.table import OPEN_CELL
-from bbsd.solver.paper.genetics import random_pool
+from bbsd.kernel.streams import fold, name_word
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -35,9 +33,7 @@ if TYPE_CHECKING:
     from bbsd.evaluation import PairedEpisodes
     from bbsd.explanation.worth.rules import SingleRule
 
-ORDERS, TABLES = name_word("worth of orders"), name_word("worth of random tables")
-RANDOM_TABLES = 25
-"""Random tables that replace each behavior's; each has its part of the episodes."""
+ORDERS = name_word("worth of orders")
 SEEN = 1000
 """Episodes at most in which it is watched who is excited."""
 
@@ -132,14 +128,8 @@ class Appraisal:
 
         Each table has its own part of the episodes, so that the tables' means are independent.
         """
-        shape, n_tables = self.problem.tables[behavior], self.random_tables
-        stream = fold(fold(self.key, TABLES), word_of(behavior))
-        is_open = np.full(shape.n_cells, OPEN_CELL, np.uint8)
-        pools = [table[np.newaxis] for table in self.architecture.tables]
-        pools[behavior] = random_pool(stream, n_tables, is_open, shape.n_actions)
-        members = np.zeros((n_tables, len(pools)), np.int64)
-        members[:, behavior] = np.arange(n_tables)
-        agents = Agents(tuple(pools), members, np.tile(self.architecture.structure, (n_tables, 1)))
+        agents = with_random_tables(self.problem, self.architecture, behavior, self.key, self.episodes)
+        n_tables = len(agents)
         each = self.episodes // n_tables
         own = self.keys[: n_tables * each].reshape(n_tables, each)
         base = self.paired.returns[0, : n_tables * each].reshape(n_tables, each)

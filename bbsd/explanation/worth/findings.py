@@ -7,6 +7,7 @@ from math import floor, log10
 from typing import TYPE_CHECKING, get_args
 
 from bbsd.explanation.conditions import join_words
+from bbsd.explanation.lines import percent
 from bbsd.explanation.worth.results import (
     Finding,
     FindingKind,
@@ -75,7 +76,7 @@ class _Judge:
             hardly = "is hardly in control and " if kind == "idle" else ""
             yield Finding(kind, (name,), f"{name} {hardly}can be removed: {change}")
         if worth.expectation is not None and worth.expectation < KEPT:
-            text = f"{name} breaks its expectation: it held after {_percent(worth.expectation)} of its steps"
+            text = f"{name} breaks its expectation: it held after {percent(worth.expectation)} of its steps"
             yield Finding("broken expectation", (name,), text)
 
     def of_rule(self, worth: BehaviorWorth, rule: RuleWorth) -> Iterator[Finding]:
@@ -92,11 +93,10 @@ class _Judge:
             yield Finding("useless rule", (worth.behavior,), f"{named} can be removed: {change}")
 
     def of_orders(self, orders: Sequence[Order]) -> Iterator[Finding]:
-        """Name the best other order where it is clearly better."""
-        for order in orders[:1]:
-            if clearly_above(order.change):
-                text = f"another order does better: {' '.join(order.structure)}, {self.change(order.change)}"
-                yield Finding("better order", order.structure, text)
+        """Name the best order of those that are clearly better."""
+        for order in [each for each in orders if clearly_above(each.change)][:1]:
+            text = f"another order does better: {' '.join(order.structure)}, {self.change(order.change)}"
+            yield Finding("better order", order.structure, text)
 
     def is_removable(self, change: Interval) -> bool:
         """Return whether a change of the return is nothing, or its interval holds 0 and is narrow."""
@@ -108,16 +108,21 @@ class _Judge:
         return max(-change.low, change.high) <= small
 
     def change(self, change: Interval) -> str:
-        """Return a change of the return in words, such as `return -0.02 to +0.01`."""
-        if never_changes(change):
-            return "the return never changes"
-        largest = max(abs(self.returns.mean), self.returns.sd, 1e-9)
-        decimals = max(0, DIGITS - 1 - floor(log10(largest)))
-        ends = [round(value, decimals) + 0.0 for value in (change.low, change.high)]
-        if not any(ends):
-            return f"the return changes by less than {10**-decimals:g}"
-        low, high = (f"{value:+.{decimals}f}" for value in ends)
-        return f"return {low} to {high}"
+        """Return a change of the return in words."""
+        return change_text(change, self.returns)
+
+
+def change_text(change: Interval, returns: Interval) -> str:
+    """Return a change of the return in words, such as `return -0.02 to +0.01`; `returns` are those before it."""
+    if never_changes(change):
+        return "the return never changes"
+    largest = max(abs(returns.mean), returns.sd, 1e-9)
+    decimals = max(0, DIGITS - 1 - floor(log10(largest)))
+    ends = [round(value, decimals) + 0.0 for value in (change.low, change.high)]
+    if not any(ends):
+        return f"the return changes by less than {10**-decimals:g}"
+    low, high = (f"{value:+.{decimals}f}" for value in ends)
+    return f"return {low} to {high}"
 
 
 def _of_robots(pairs: Sequence[RobotsAlike]) -> Iterator[Finding]:
@@ -131,16 +136,12 @@ def _of_robots(pairs: Sequence[RobotsAlike]) -> Iterator[Finding]:
     for group in sorted(groups, key=min):
         within = [pair for pair in pairs if pair.first in group]
         more = " at least" if len(within) > 1 else ""
-        doing = f"did the same in{more} {_percent(min(pair.same_action for pair in within))} of the steps"
+        doing = f"did the same in{more} {percent(min(pair.same_action for pair in within))} of the steps"
         places = [pair.same_place for pair in within if pair.same_place is not None]
         if places:
-            doing += f", and stood in the same place after{more} {_percent(min(places))}"
+            doing += f", and stood in the same place after{more} {percent(min(places))}"
         else:
             same = min(pair.same_state for pair in within)
-            doing += f", and were in the same state after{more} {_percent(same)}"
+            doing += f", and were in the same state after{more} {percent(same)}"
         robots = [str(robot) for robot in sorted(group)]
         yield Finding("robots alike", tuple(robots), f"robots {join_words(robots, 'and')} {doing}")
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.1f} %"

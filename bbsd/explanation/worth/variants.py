@@ -7,11 +7,37 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.evaluation.agents import Agents, no_action
+from bbsd.kernel.streams import fold, name_word, word_of
+from bbsd.language.meaning.tables.table import OPEN_CELL
+from bbsd.solver.paper.genetics import random_pool
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture
+    from bbsd.compiler import Problem
+
+RANDOM_TABLES = 25
+"""Random tables that replace a behavior's; each has its part of the episodes, so that their means are independent."""
+TABLES = name_word("worth of random tables")
+
+
+def with_random_tables(
+    problem: Problem, base: Architecture, behavior: int, key: int, episodes: int
+) -> Agents:
+    """Return a design with random tables of one behavior: an agent for each table, as many as so many episodes allow.
+
+    `key` names the stream of the episodes, and so the tables.
+    """
+    shape, n_tables = problem.tables[behavior], min(RANDOM_TABLES, episodes)
+    is_open = np.full(shape.n_cells, OPEN_CELL, np.uint8)
+    pools = [table[np.newaxis] for table in base.tables]
+    pools[behavior] = random_pool(
+        fold(fold(key, TABLES), word_of(behavior)), n_tables, is_open, shape.n_actions
+    )
+    members = np.zeros((n_tables, len(pools)), np.int64)
+    members[:, behavior] = np.arange(n_tables)
+    return Agents(tuple(pools), members, np.tile(base.structure, (n_tables, 1)))
 
 
 class Variants:

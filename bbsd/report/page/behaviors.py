@@ -83,7 +83,9 @@ def _remarks(layer: LayerInWords) -> list[Plain]:
     if layer.cells == 0 and layer.overruled_by:
         return [f"Never controls: {join_words(layer.overruled_by, 'or')} above always does."]
     if layer.covered:
-        return [f"Higher layers always act where {'; or where '.join(layer.covered)}."]
+        return [
+            f"Higher layers always act where {'; or where '.join(place.where for place in layer.covered)}."
+        ]
     return []
 
 

@@ -147,7 +147,9 @@ def _verdict(swap: Swap) -> str:
         return "never any change"
     if clearly_above(swap.change):
         return "better"
-    return "" if isnan(swap.change.mean) or clearly_below(swap.change) else "no measurable change"
+    if isnan(swap.change.mean) or clearly_below(swap.change):
+        return ""
+    return "no measurable change" if swap.change.low <= 0 <= swap.change.high else "not certain"
 
 
 def _orders(orders: Sequence[Order], precedence: Precedence) -> RenderableType:

@@ -213,11 +213,11 @@ def test_faults_are_read(meaning, text, fault):
     assert read_fault(fault.text, meaning) == fault
 
 
-def test_all_stands_for_every_behavior_silent(meaning):
-    silent = [Fault("behavior", name, "silent") for name in ("watch", "rest")]
+def test_all_stands_for_every_behavior_silent_the_highest_first(meaning):
+    silent = [Fault("behavior", name, "silent") for name in ("rest", "watch")]
     assert read_faults(["all"], meaning) == silent
     assert read_faults(["behavior=rest:silent", "robot=0:dead", "all"], meaning) == [
-        silent[1], Fault("robot", "0", "dead"), silent[0],
+        silent[0], Fault("robot", "0", "dead"), silent[1],
     ]  # fmt: skip
 
 

@@ -80,17 +80,18 @@ def test_a_table_says_how_to_read_it():
 
 def test_the_whole_is_one_table():
     text = table_text(explained(UPPER_NEAR, [[0, 1, 2, 1, 1, 1], [0, 1]], [0, 1]))
-    assert "command  layer  module  where\n" in text
-    assert "a            2  upper   near\n" in text
-    assert "(none)          nobody  no row above holds\n" in text
+    assert "command  layer  behavior  where\n" in text
+    assert "a            2  upper     near\n" in text
+    assert "(none)          nobody    no row above holds\n" in text
 
 
 def test_the_whole_is_ordered_by_time_where_visits_are_known():
     counted = visits([[5, 0, 70, 0, 0, 0], [5, 20]], [[0, 0, 70, 0, 0, 0], [0, 20]])
     text = table_text(with_visits(UPPER_NEAR, [[0, 1, 2, 1, 1, 1], [0, 1]], [0, 1], counted))
-    assert text.index("70.00 %  b") < text.index("20.00 %  a") < text.index(" 0.00 %  a")
-    assert "10.00 %  (none)" in text
-    assert "In 10 episodes, lower controlled 70 % of the time, upper 20 % and nobody 10 %." in text
+    assert text.index("70.0 %  b") < text.index("20.0 %  a") < text.index(" 0.0 %  a")
+    assert "10.0 %  (none)" in text
+    words = " ".join(text.split())
+    assert "In 10 episodes, lower controlled 70.0 % of the time, upper 20.0 % and nobody 10.0 %." in words
     assert "(1 cell was never asked in 10 episodes; there the table says a where pace is 1.)" in " ".join(
         text.split()
     )

@@ -28,7 +28,7 @@ def test_each_fault_is_alone_and_beside_the_undisturbed_design(problem):
     assert found.returns == interval(base)
     assert found.structure == ("guard", "grab", "work")
     assert [each.fault.text for each in found.faults] == [
-        "behavior=work:silent", "behavior=grab:silent", "behavior=guard:silent", "sensor=tempted:lost", "robot=1:dead",
+        "behavior=guard:silent", "behavior=grab:silent", "behavior=work:silent", "sensor=tempted:lost", "robot=1:dead",
     ]  # fmt: skip
     for each in found.faults:
         assert each.change.mean == pytest.approx(each.returns.mean - found.returns.mean)
@@ -40,14 +40,16 @@ def test_each_fault_is_alone_and_beside_the_undisturbed_design(problem):
 def test_a_silent_behavior_is_a_dropped_one(problem):
     found = found_with(problem, "all")
     worth = Appraisal(problem, given_architecture(problem), evaluation_key(0), EPISODES, 1)
-    for behavior, each in enumerate(found.faults):
-        assert each.change == worth.dropped(behavior)
+    for each in found.faults:
+        assert each.change == worth.dropped(problem.names.index(each.fault.name))
 
 
 def test_a_random_table_is_the_mean_of_many(problem):
     (each,) = found_with(problem, "behavior=grab:random").faults
     assert each.returns.count == each.change.count == 25
     assert each.change.sd > 0
+    worth = Appraisal(problem, given_architecture(problem), evaluation_key(0), EPISODES, 1)
+    assert each.change == worth.replaced(problem.names.index("grab"))
 
 
 def test_the_order_is_learned_again_around_a_fault(problem):
@@ -106,7 +108,8 @@ def test_a_frame_has_a_row_for_each_fault(problem):
 
 def test_rewards_that_are_not_finite_under_a_fault_have_no_mean():
     found = found_with(problem_of(needed()), "all", "behavior=work:random", relearn=True)
-    work, grab, _, random = found.faults
+    _, grab, work, random = found.faults
+    assert [grab.fault.name, work.fault.name, random.fault.name] == ["grab", "work", "work"]
     assert np.isnan([work.returns.mean, work.change.mean, random.returns.mean]).all()
     assert np.isfinite([grab.returns.mean, grab.change.mean, grab.relearned.gain.mean]).all()
     assert work.relearned.structure == found.structure

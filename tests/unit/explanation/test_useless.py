@@ -108,4 +108,4 @@ structure: [one]
     counted = visits([[5, 5, 0, 0, 0, 0]], [[5, 5, 0, 0, 0, 0]], 10)
     text = explanation_text(explain_architecture(meaning, architecture_of(meaning), counted))
     assert "  one, rules 3, 4 and 5: not used in 10 episodes\n" in text
-    assert "  (bbsd worth measures what the design would earn without them.)\n" in text
+    assert "  (bbsd explain --worth measures what the design would earn without them.)\n" in text

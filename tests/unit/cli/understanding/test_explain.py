@@ -49,3 +49,22 @@ def test_visits_are_counted_on_demand(capsys):
 
 def test_no_episodes_are_a_mistake(capsys):
     assert run("explain", HAND, "--episodes", 0) == 2
+
+
+def test_the_worth_of_what_seems_useless_is_measured_on_demand(tmp_path, capsys):
+    rare = """behaviors:
+  rare:
+    inputs:
+      wild: tilt > 60
+    actions: {halt: {speed: 0}}
+    rules: [{when: {wild: true}, do: halt}, otherwise: no action]
+"""
+    text = HAND.read_text(encoding="utf-8").replace("behaviors:\n", rare, 1)
+    design = tmp_path / "rare.yaml"
+    design.write_text(text.replace("structure: [", "structure: [rare, "), encoding="utf-8")
+    assert run("explain", design, "--episodes", 3, "--worth") == 0
+    out = capsys.readouterr().out
+    assert "  rare: never controlled in 3 episodes; without it the return never changes\n" in out
+    assert "explain --worth" not in out
+    assert run("explain", design, "--episodes", 3) == 0
+    assert "  (bbsd explain --worth measures" in capsys.readouterr().out

@@ -5,7 +5,7 @@ from tests.unit.architecture.designs import SPECS
 from tests.unit.architecture.test_shorter import WORDY
 from tests.unit.cli.commands import run
 
-CHANGES = "lower: 1 word instead of 10\nnever: never controls, and left the structure\nthe same in all 6 joint cells\n"
+CHANGES = "lower: 1 word instead of 10\nnever: never controls, and left the structure\nthe same in all 6 situations\n"
 
 
 @pytest.fixture

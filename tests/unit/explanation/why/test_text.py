@@ -50,35 +50,35 @@ def test_a_why_tells_what_would_have_changed_the_answer():
         text[text.index("What would") :]
         == """\
 What would have kept stop_at_goal from control:
-  Perceiving reached false instead of true; then slow_down.slower (of all 72
-    joint cells).
+  Perceiving reached false instead of true; then slow_down.slower (all 72
+    situations were tried).
   One change of rules or order, any of:
     - slow_down exchanges layers with stop_at_goal; then slow_down.slower
-      (changes 6 of 72 joint cells)
+      (changes 6 of 72 situations)
     - hurry_up exchanges layers with stop_at_goal; then slow_down.slower
-      (changes 12 of 72 joint cells)
+      (changes 12 of 72 situations)
     - do_not_go_fast exchanges layers with stop_at_goal; then slow_down.slower
-      (changes 18 of 72 joint cells)
+      (changes 18 of 72 situations)
     - stop_at_goal decides no action instead of stop where reached true; then
-      slow_down.slower (changes 36 of 72 joint cells)
+      slow_down.slower (changes 36 of 72 situations)
     - push_more exchanges layers with stop_at_goal; then push_more.push (changes
-      52 of 72 joint cells)
+      52 of 72 situations)
 
 What would have let hurry_up control:
   Perceiving reached false instead of true and place lowest instead of highest;
-    then hurry_up.faster (of all 72 joint cells).
+    then hurry_up.faster (all 72 situations were tried).
   2 changes of rules or order together:
     - hurry_up decides faster instead of no action where place highest, tilted
       true and also hurry_up exchanges layers with stop_at_goal; then
-      hurry_up.faster (changes 18 of 72 joint cells)
+      hurry_up.faster (changes 18 of 72 situations)
 
 What would have let nobody control:
-  No change of what it perceived (of all 72 joint cells).
+  No change of what it perceived (all 72 situations were tried).
   3 changes of rules or order together:
     - stop_at_goal decides no action instead of stop where reached true,
       slow_down decides no action instead of slower where place highest, tilted
       true and also push_more decides no action instead of push; then nobody
-      (changes 62 of 72 joint cells)
+      (changes 62 of 72 situations)
 """
     )
 
@@ -88,7 +88,9 @@ def test_of_what_is_not_excited_no_rule_can_help():
     assert "No change of rules or order: follow_wall was not excited." in text
     # Where no wall is near it cannot be excited: a wall must be perceived too.
     assert "Perceiving wall_right true instead of false" in text
-    assert "80 joint cells" in " ".join(text.split())
+    assert "all 80 situations were tried; of 6 ways with 3 inputs this is the nearest" in " ".join(
+        text.split()
+    )
 
 
 def test_a_why_is_plain_data():
