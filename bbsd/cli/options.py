@@ -75,6 +75,7 @@ Lanes = Annotated[
 ]
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
+FormatIsJson = Annotated[bool, typer.Option("--json", help="The same as --format json.")]
 
 
 class ResultFormat(StrEnum):

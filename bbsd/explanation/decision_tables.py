@@ -15,7 +15,7 @@ from bbsd.language.models import NO_ACTION_TEXT
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.explanation.words import Condition, Explanation, InputInWords, LayerInWords
+    from bbsd.explanation.words import Condition, Explanation, InputInWords, LayerInWords, Watched
 
 SCREEN = 20
 """Rows of rules from which on a grid of cells is tried; with what is around it, a terminal's screen has 24."""
@@ -30,27 +30,27 @@ class DecisionTable(NamedTuple):
     lines: list[str]
 
 
-def decision_table(layer: LayerInWords, indent: str = "") -> DecisionTable:
+def decision_table(layer: LayerInWords, indent: str = "", watched: Watched | None = None) -> DecisionTable:
     """Return a behavior's rules as a table: each row is a rule, and the first that fits decides.
 
-    Where that has too many rows for a screen, and a grid of all its cells has fewer, it is the grid.
+    Where that has too many rows for a screen, and a grid of all its cells has fewer, it is the grid. Where
+    episodes were watched, it says of each rule in which share of time the behavior was asked and the rule held first.
     """
-    rules = _rule_table(layer, indent)
+    rules = _rule_table(layer, indent, watched)
     grid = _grid(layer, indent) if len(rules) > SCREEN else []
     if grid and len(grid) < len(rules):
         return DecisionTable("the decision in each cell", grid)
     return DecisionTable("the first row that fits decides", rules)
 
 
-def _rule_table(layer: LayerInWords, indent: str) -> list[str]:
+def _rule_table(layer: LayerInWords, indent: str, watched: Watched | None) -> list[str]:
     named = [each for each in layer.inputs if any(each.name in _inputs(rule.when) for rule in layer.rules)]
-    has_visits = layer.controlled is not None
-    head = [*(each.name for each in named), "decision", *(["asked"] if has_visits else [])]
+    head = [*(each.name for each in named), "decision", *(["asked"] if watched else [])]
     rows = [
         [
             *(_cell_text(rule.when, each) for each in named),
             rule.decision,
-            *([f"{rule.asked:,}"] if has_visits else []),
+            *([percent((rule.asked or 0) / max(1, watched.robot_steps))] if watched else []),
         ]
         for rule in layer.rules
     ]

@@ -26,6 +26,9 @@ MOST_INPUTS_IN_PROSE, MOST_RULES_IN_PROSE = 3, 8
 """Inputs and rules of a behavior up to which they are sentences; of more, they are a decision table."""
 MOST_USELESS_RULES = 2
 """Useless rules of a behavior that are written out; of more, the numbers are given."""
+ASKED = (
+    "(asked: share of time in which a behavior was excited, no higher layer acted, and the row fitted first)"
+)
 MOST_UNASKED = 4
 """Conditions in which a table says something else than the rules, and was never asked, that are listed, at most."""
 
@@ -82,6 +85,7 @@ def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
     digits = len(str(len(layers)))
     width = min(max(len(layer.behavior) for layer in layers), NAME_WIDTH)
     lines: list[str] = []
+    has_shares = False
     for layer in layers:
         is_long = _n_inputs(layer) > MOST_INPUTS_IN_PROSE or len(layer.rules) > MOST_RULES_IN_PROSE
         is_table = len(layer.rules) > 1 and (all_tables or is_long)
@@ -91,7 +95,8 @@ def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
                 head, column, [*_excited(layer), *_rules(layer), *_remarks(layer, explanation.watched)]
             )
             continue
-        table = decision_table(layer, " " * (digits + 2))
+        has_shares = explanation.watched is not None
+        table = decision_table(layer, " " * (digits + 2), explanation.watched)
         lines += [*hanging(head, column, [*_excited(layer), table.how]), "", *table.lines, ""]
         indent = " " * column
         lines += [
@@ -99,7 +104,7 @@ def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
             for each in _remarks(layer, explanation.watched)
             for line in wrapped(each, indent, indent + "  ")
         ]
-    return lines
+    return [*lines, *(wrapped(ASKED) if has_shares else [])]
 
 
 def _n_inputs(layer: LayerInWords) -> int:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsFormat, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
+from bbsd.cli.options import AsFormat, FormatIsJson, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
 from bbsd.cli.output import say, show, show_table
 from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
@@ -40,6 +40,7 @@ def compare(
     ] = None,
     overrides: Overrides = None,
     form: AsFormat = ResultFormat.TEXT,
+    as_json: FormatIsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
 ) -> None:
@@ -63,7 +64,7 @@ def compare(
         )
         for other in others
     ]
-    _show(comparisons, form)
+    _show(comparisons, ResultFormat.JSON if as_json else form)
     failures = [line for comparison in comparisons for line in _too_low(comparison, at_least)]
     for failure in failures:
         say(failure)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import DesignFile, Overrides, Seed
+from bbsd.cli.options import DesignFile, FormatIsJson, Overrides, Seed
 from bbsd.cli.output import say, show
 from bbsd.errors import escape
 from bbsd.report.plain import json_text
@@ -50,6 +50,7 @@ def explain(
             help="Sentences; decision tables, and the whole as one table; decision trees; diagrams; or JSON.",
         ),
     ] = ExplanationFormat.TEXT,
+    as_json: FormatIsJson = False,
 ) -> None:
     """Describe what a design does by the shortest rules.
 
@@ -63,7 +64,7 @@ def explain(
     )
     if explanation.watched is None and (spec / VISITS).is_file():
         say(f"the visits that {escape(str(spec))} has kept are of another design; --episodes N counts anew")
-    if form is ExplanationFormat.JSON:
+    if as_json or form is ExplanationFormat.JSON:
         show(json_text(explanation.to_plain()))
         return
     texts = {

@@ -5,7 +5,16 @@ from typing import TYPE_CHECKING, Annotated, cast
 import typer
 
 import bbsd
-from bbsd.cli.options import AsFormat, DesignFile, Episode, Overrides, ResultFormat, Seed, read_episode
+from bbsd.cli.options import (
+    AsFormat,
+    DesignFile,
+    Episode,
+    FormatIsJson,
+    Overrides,
+    ResultFormat,
+    Seed,
+    read_episode,
+)
 from bbsd.cli.output import show
 from bbsd.errors import SpecError
 from bbsd.report.plain import json_text
@@ -54,6 +63,7 @@ def why(
     seed: Seed = 0,
     overrides: Overrides = None,
     form: AsFormat = ResultFormat.TEXT,
+    as_json: FormatIsJson = False,
 ) -> None:
     """Say why a robot did what it did in a step.
 
@@ -73,7 +83,7 @@ def why(
         seed=seed,
         overrides=overrides or (),
     )
-    show(json_text(answer.to_plain()) if form is ResultFormat.JSON else answer_text(answer))
+    show(json_text(answer.to_plain()) if as_json or form is ResultFormat.JSON else answer_text(answer))
 
 
 def _read_value(argument: str) -> tuple[str, "Given"]:

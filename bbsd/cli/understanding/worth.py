@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import DesignFile, Jobs, Lanes, Overrides, Seed
+from bbsd.cli.options import DesignFile, FormatIsJson, Jobs, Lanes, Overrides, Seed
 from bbsd.cli.output import show, show_table
 from bbsd.report.plain import json_text
 
@@ -34,6 +34,7 @@ def worth(
             help="Format of the output; dot and mermaid draw what must stand above what, and nothing else.",
         ),
     ] = WorthFormat.TEXT,
+    as_json: FormatIsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
 ) -> None:
@@ -46,7 +47,7 @@ def worth(
     found = bbsd.worth(spec, episodes=episodes, seed=seed, lanes=lanes, jobs=jobs, overrides=overrides or ())
     from bbsd.report.worth import order_dot, order_mermaid, worth_plain, worth_table
 
-    match form:
+    match WorthFormat.JSON if as_json else form:
         case WorthFormat.JSON:
             show(json_text(worth_plain(found)))
         case WorthFormat.DOT:

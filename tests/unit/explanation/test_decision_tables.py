@@ -90,6 +90,8 @@ def test_the_whole_is_ordered_by_time_where_visits_are_known():
     text = table_text(with_visits(UPPER_NEAR, [[0, 1, 2, 1, 1, 1], [0, 1]], [0, 1], counted))
     assert text.index("70.0 %  b") < text.index("20.0 %  a") < text.index(" 0.0 %  a")
     assert "10.0 %  (none)" in text
+    assert "pace  decision    asked\n" in text
+    assert "(asked: share of time in which" in text
     words = " ".join(text.split())
     assert "In 10 episodes, lower controlled 70.0 % of the time, upper 20.0 % and nobody 10.0 %." in words
     assert "(1 cell was never asked in 10 episodes; there the table says a where pace is 1.)" in " ".join(

@@ -68,3 +68,11 @@ def test_the_worth_of_what_seems_useless_is_measured_on_demand(tmp_path, capsys)
     assert "explain --worth" not in out
     assert run("explain", design, "--episodes", 3) == 0
     assert "  (bbsd explain --worth measures" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", [["explain", HAND], ["why", HAND, "--step", 3]])
+def test_json_is_the_format_json(command, capsys):
+    assert run(*command, "--json") == run(*command, "--format", "json") == 0
+    out = capsys.readouterr().out
+    assert out[: len(out) // 2] == out[len(out) // 2 :]
+    assert json.loads(out[: len(out) // 2])
