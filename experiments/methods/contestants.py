@@ -13,9 +13,11 @@ if TYPE_CHECKING:
 
 PAPER = "paper"
 WITHOUT = "auto_without_"
-FINISHING = "finishing"
-ABLATIONS = (*(WITHOUT + method.name for method, _ in auto.OPENINGS), WITHOUT + FINISHING)
-"""Without one of the searches, whose part of the budget the leading one gets; without the climbs at the end.
+BREEDING, FINISHING = "breeding", "finishing"
+ABLATIONS = tuple(
+    WITHOUT + name for name in (*(method.name for method, _ in auto.OPENINGS), BREEDING, FINISHING)
+)
+"""Without one of the searches, whose part of the budget breeding gets; without breeding; without climbs at the end.
 
 With a budget so small that `auto` leaves out a search by itself, the variant without it is the same.
 """
@@ -29,14 +31,16 @@ def method_of(name: str) -> Iterator[str]:
     if not name.startswith(WITHOUT):
         yield name
         return
-    former = auto.OPENINGS, auto.FEW_OPENINGS, auto.FINISHING
+    former = auto.OPENINGS, auto.FEW_OPENINGS, auto.BRED_UNTIL, auto.FEW_BRED_UNTIL
     lacking = name.removeprefix(WITHOUT)
     try:
-        if lacking == FINISHING:
-            auto.FINISHING = 1.0
+        if lacking == BREEDING:
+            auto.BRED_UNTIL = auto.FEW_BRED_UNTIL = 0.0
+        elif lacking == FINISHING:
+            auto.BRED_UNTIL = auto.FEW_BRED_UNTIL = 0.97
         else:
             fewer = [tuple(part for part in openings if part[0].name != lacking) for openings in former[:2]]
             auto.OPENINGS, auto.FEW_OPENINGS = fewer  # type: ignore[assignment]
         yield "auto"
     finally:
-        auto.OPENINGS, auto.FEW_OPENINGS, auto.FINISHING = former
+        auto.OPENINGS, auto.FEW_OPENINGS, auto.BRED_UNTIL, auto.FEW_BRED_UNTIL = former

@@ -1,9 +1,10 @@
-"""The default method: a portfolio of searches on one budget, finished by paired single changes.
+"""The default method: a portfolio of searches on one budget, whose best designs are bred, and climb.
 
-Each search is good where another is not: cross-entropy and societies where returns tell designs apart, practice where
-nothing is earned until choices vary within an episode. All get an opening; the one whose best design earns most in
-common episodes gets further runs; then the best designs of all climb until no single change helps. Q-learning is left
-out where its table would be too large.
+Each search is good where another is not: societies where returns tell designs apart, practice where nothing is earned
+until choices vary within an episode, Q-learning where the joint cell tells the state. All get an opening. With a large
+budget, the one whose best design earns most in common episodes gets further runs: restarts find other local optima.
+Then the best designs of all become the population of the joint genetic algorithm, and the best of all climb until no
+single change helps. Q-learning is left out where its table would be too large.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.climb import Climb, advance_climb, begin_climb
-from bbsd.solver.methods import cross_entropy, practice, q_learning, random_search, societies
+from bbsd.solver.methods import joint, practice, q_learning, random_search, societies
 from bbsd.solver.methods.method import Method, SearchState, with_champions
 from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
 from bbsd.solver.space import Designs
@@ -28,8 +29,7 @@ if TYPE_CHECKING:
 
 OPENINGS = (
     (random_search.METHOD, 0.02),
-    (cross_entropy.METHOD, 0.09),
-    (societies.METHOD, 0.10),
+    (societies.METHOD, 0.19),
     (practice.METHOD, 0.08),
     (q_learning.METHOD, 0.12),
 )
@@ -37,14 +37,18 @@ OPENINGS = (
 FEW = 60_000
 FEW_OPENINGS = (
     (random_search.METHOD, 0.02),
-    (societies.METHOD, 0.22),
-    (q_learning.METHOD, 0.35),
+    (societies.METHOD, 0.10),
+    (q_learning.METHOD, 0.20),
 )
 """With a budget below that, those that need the fewest episodes."""
-FURTHER_SHARE = 0.155
+LEARNED_SHARE, FEW_LEARNED_SHARE = 0.15, 0.10
+"""Of the budget, what Q-learning goes on for where it leads after the openings."""
+FURTHER_SHARE = 0.22
 """Of the budget, what a further run of the leading search gets."""
-FINISHING = 0.72
-"""Share of the budget after which no further run is begun before the best designs have climbed."""
+MOST_BRED = 150_000
+"""Episodes of breeding at most; a larger budget is spent on further runs before."""
+BRED_UNTIL, FEW_BRED_UNTIL = 0.85, 0.96
+"""Share of the budget that is spent when breeding ends and climbs begin, which need many episodes."""
 NOMINEES = 12
 """Designs of a run that take part in the common episodes."""
 CLIMBS = 3
@@ -52,19 +56,19 @@ CLIMBS = 3
 LEAST_SHARE = 0.08
 """Of the budget, what must be left for another run and its climb."""
 
-OPENING, RUN, COMMON, FINISH, TEMPLATE = (
-    name_word(name) for name in ("opening", "run", "common episodes", "finish", "template")
+OPENING, RUN, COMMON, BREEDING, FINISH, TEMPLATE = (
+    name_word(name) for name in ("opening", "run", "common episodes", "breeding", "finish", "template")
 )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AutoState(SearchState):
-    """The searches, and the climb of a good design."""
+    """The searches, the breeding of what they found, and the climb of a good design."""
 
     planned_in_all: int
     """Episodes that the search was begun with."""
     searches: tuple[SearchState, ...]
-    """The present or last run of each."""
+    """The present or last run of each; the last one is breeding."""
     planned: NDArray[np.int64]
     """Episodes of these runs, (n_searches,)."""
     runs: NDArray[np.int64]
@@ -96,10 +100,10 @@ def openings(arena: Arena, budget: int) -> tuple[tuple[Method, float], ...]:
 def begin(arena: Arena, key: int, budget: int) -> AutoState:
     """Return the state before the first round."""
     stream = fold(key, OPENING)
-    planned = [max(1, int(share * budget)) for _, share in openings(arena, budget)]
+    planned = [*(max(1, int(share * budget)) for _, share in openings(arena, budget)), 0]
     searches = tuple(
         method.begin(arena, _run_key(key, index, 0), planned[index])
-        for index, (method, _) in enumerate(openings(arena, budget))
+        for index, method in enumerate(_methods(arena, budget))
     )
     some = arena.space.random(fold(stream, TEMPLATE), 1)
     return AutoState(
@@ -115,8 +119,8 @@ def begin(arena: Arena, key: int, budget: int) -> AutoState:
     )
 
 
-def _methods(state: AutoState, arena: Arena) -> list[Method]:
-    return [method for method, _ in openings(arena, state.planned_in_all)]
+def _methods(arena: Arena, budget: int) -> list[Method]:
+    return [*(method for method, _ in openings(arena, budget)), joint.METHOD]
 
 
 def _run_key(key: int, search: int, run: int) -> int:
@@ -136,7 +140,7 @@ def advance(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
 
 def _search_round(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
     index = state.turn
-    search, method = state.searches[index], _methods(state, arena)[index]
+    search, method = state.searches[index], _methods(arena, state.planned_in_all)[index]
     most = min(int(state.planned[index]), search.spent + budget - state.spent)
     after = method.advance(search, arena, _run_key(key, index, int(state.runs[index])), most)
     searches = (*state.searches[:index], after, *state.searches[index + 1 :])
@@ -162,11 +166,51 @@ def _after_run(state: AutoState, arena: Arena, key: int, budget: int) -> AutoSta
     best[index] = max(best[index], _best_of(state, nominees))
     runs[index] += 1
     state = replace(state, best=best, runs=runs)
-    if index + 1 < len(state.searches) and not runs[index + 1] and _is_promising(state, arena, index + 1):
+    if index + 2 < len(state.searches) and not runs[index + 1] and _is_promising(state, arena, index + 1):
         return replace(state, turn=index + 1)
-    if state.spent < FINISHING * budget:
-        return _with_run(state, arena, key, _leader(best), int(FURTHER_SHARE * budget))
+    return _after_openings(state, arena, key, budget)
+
+
+def _after_openings(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
+    """Give the next turn: to Q-learning where it leads, to a further run, to breeding, or to climbs."""
+    is_few, breeding = state.planned_in_all < FEW, len(state.searches) - 1
+    leader, methods = _leader(state.best[:breeding]), _methods(arena, state.planned_in_all)
+    until = int((FEW_BRED_UNTIL if is_few else BRED_UNTIL) * budget)
+    learns = methods[leader] is q_learning.METHOD
+    if learns and state.runs[leader] == 1:
+        share = FEW_LEARNED_SHARE if is_few else LEARNED_SHARE
+        return _with_more(state, leader, max(int(share * budget), until - MOST_BRED - state.spent))
+    if state.spent < until - MOST_BRED and not learns:
+        return _with_further_run(state, arena, key, int(FURTHER_SHARE * budget))
+    if state.spent < until and not state.runs[breeding]:
+        return _with_breeding(state, arena, fold(key, BREEDING), until - state.spent)
     return replace(state, turn=len(state.searches), climbs=0)
+
+
+def _with_more(state: AutoState, index: int, episodes: int) -> AutoState:
+    """Let a search go on."""
+    planned = state.planned.copy()
+    planned[index] = state.searches[index].spent + max(1, episodes)
+    return replace(state, planned=planned, turn=index)
+
+
+def _with_breeding(state: AutoState, arena: Arena, key: int, episodes: int) -> AutoState:
+    """Begin the joint genetic algorithm with the best designs of each search, and random ones where these are few."""
+    search = joint.begin(arena, key, episodes)
+    size = len(search.population)
+    found = [(search.champions.tables, search.champions.structures) for search in state.searches[:-1]]
+    rows = [
+        (rank, index) for index, (tables, _) in enumerate(found) for rank in range(min(size, len(tables)))
+    ]
+    best = [
+        Designs(found[index][0][rank : rank + 1], found[index][1][rank : rank + 1])
+        for rank, index in sorted(rows)[:size]
+    ]
+    population = best[0].joined(*best[1:], search.population)[np.arange(size)] if best else search.population
+    search = replace(search, population=population, round=1)
+    return _with_more(
+        replace(state, searches=(*state.searches[:-1], search)), len(state.searches) - 1, episodes
+    )
 
 
 def _is_promising(state: AutoState, arena: Arena, index: int) -> bool:
@@ -174,7 +218,7 @@ def _is_promising(state: AutoState, arena: Arena, index: int) -> bool:
 
     Practice and Q-learning both learn what joint cells are worth; where practice trails, those hide too much.
     """
-    methods = _methods(state, arena)
+    methods = _methods(arena, state.planned_in_all)
     if methods[index] is not q_learning.METHOD or practice.METHOD not in methods:
         return True
     return bool(state.best[methods.index(practice.METHOD)] == state.best.max())
@@ -202,11 +246,12 @@ def _bytes_of(designs: Designs, index: int) -> bytes:
     return row
 
 
-def _with_run(state: AutoState, arena: Arena, key: int, index: int, episodes: int) -> AutoState:
-    """Begin a new run of a search."""
+def _with_further_run(state: AutoState, arena: Arena, key: int, episodes: int) -> AutoState:
+    """Begin a new run of the leading search."""
+    index = _leader(state.best[:-1])
     planned = state.planned.copy()
     planned[index] = max(1, episodes)
-    fresh = _methods(state, arena)[index].begin(
+    fresh = _methods(arena, state.planned_in_all)[index].begin(
         arena, _run_key(key, index, int(state.runs[index])), int(planned[index])
     )
     searches = (*state.searches[:index], fresh, *state.searches[index + 1 :])
@@ -218,7 +263,7 @@ def _climb_round(state: AutoState, arena: Arena, key: int, budget: int) -> AutoS
         start = _next_climber(state)
         left = budget - state.spent
         if start is None or (state.climbs >= CLIMBS and left > LEAST_SHARE * budget):
-            return _with_run(state, arena, key, _leader(state.best), int(0.6 * left))
+            return _with_further_run(state, arena, key, int(0.6 * left))
         state = replace(_with_tried(state, start), climb=begin_climb(start), climbing=True)
     climb = state.climb
     stream = fold(fold(key, FINISH), word_of(len(state.tried_tables)))
