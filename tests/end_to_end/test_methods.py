@@ -95,14 +95,15 @@ def test_all_tasks_that_are_shipped_are_compared():
 
 
 def test_a_variant_lacks_its_ingredient_and_leaves_the_method_as_it_was():
-    whole = auto.OPENINGS, auto.FEW_OPENINGS, auto.FINISHING
+    whole = auto.OPENINGS, auto.FEW_OPENINGS, auto.BRED_UNTIL, auto.FEW_BRED_UNTIL
     for name in ABLATIONS:
         with method_of(name) as method:
             assert method == "auto"
             lacking = name.removeprefix("auto_without_")
-            assert (auto.FINISHING == 1) == (lacking == "finishing")
+            assert (auto.BRED_UNTIL > whole[2]) == (lacking == "finishing")
+            assert (auto.BRED_UNTIL == 0) == (lacking == "breeding")
             assert lacking not in {part[0].name for part in auto.OPENINGS + auto.FEW_OPENINGS}
-        assert whole == (auto.OPENINGS, auto.FEW_OPENINGS, auto.FINISHING)
+        assert whole == (auto.OPENINGS, auto.FEW_OPENINGS, auto.BRED_UNTIL, auto.FEW_BRED_UNTIL)
 
 
 @pytest.mark.slow

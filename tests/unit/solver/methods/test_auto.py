@@ -1,4 +1,4 @@
-"""A portfolio: openings, further runs of the one that leads, and climbs of the best designs."""
+"""A portfolio: openings, further runs of the one that leads, breeding of what all found, and climbs of the best."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -55,24 +55,49 @@ def in_order_of_quality(arena):
     return int(np.argmin(means)), int(np.argmax(means))
 
 
-def test_all_searches_have_their_opening_then_the_leader_goes_on_and_then_designs_climb(arena, monkeypatch):
-    worse, better = in_order_of_quality(arena)
-    openings = ((finding("worse", worse, arena), 0.1), (finding("better", better, arena), 0.1))
-    monkeypatch.setattr(auto, "FEW_OPENINGS", openings)
-    states = searched(arena)
-    assert turns(states)[:3] == [0, 1, 2]
-    runs = states[-1].runs
-    assert runs[0] == 1
-    assert runs[1] > 1
+def with_openings(monkeypatch, *searches):
+    monkeypatch.setattr(auto, "FEW_OPENINGS", tuple((search, 0.1) for search in searches))
 
 
-def test_the_leader_need_not_have_come_last(arena, monkeypatch):
+def test_all_searches_have_their_opening_then_their_designs_are_bred_and_then_climb(arena, monkeypatch):
     worse, better = in_order_of_quality(arena)
-    openings = ((finding("better", better, arena), 0.1), (finding("worse", worse, arena), 0.1))
-    monkeypatch.setattr(auto, "FEW_OPENINGS", openings)
+    with_openings(monkeypatch, finding("worse", worse, arena), finding("better", better, arena))
     states = searched(arena)
-    assert turns(states)[:3] == [0, 1, 0]
-    assert states[-1].runs[0] > 1 == states[-1].runs[1]
+    assert turns(states)[:4] == [0, 1, 2, 3]
+    assert states[-1].runs[:2].tolist() == [1, 1] or states[-1].runs[1] > 1
+    assert states[-1].runs[2] == 1
+
+
+@pytest.mark.parametrize("leads", [0, 1])
+def test_a_large_budget_has_further_runs_of_the_search_that_leads_before_breeding(arena, monkeypatch, leads):
+    worse, better = in_order_of_quality(arena)
+    searches = [finding("worse", worse, arena), finding("better", better, arena)]
+    with_openings(monkeypatch, *(searches[::-1] if leads == 0 else searches))
+    monkeypatch.setattr(auto, "MOST_BRED", 3000)
+    states = searched(arena)
+    bred = next(state for state in states if state.turn == 2)
+    assert bred.runs[leads] > 1 == bred.runs[1 - leads]
+    assert bred.spent >= auto.FEW_BRED_UNTIL * BUDGET - 3000
+
+
+def test_breeding_begins_with_the_best_designs_of_each_search(arena, monkeypatch):
+    worse, better = in_order_of_quality(arena)
+    with_openings(monkeypatch, finding("worse", worse, arena), finding("better", better, arena))
+    bred = next(state for state in searched(arena) if state.turn == 2)
+    population = bred.searches[2].population
+    for place, number in enumerate((worse, better)):
+        assert (population.tables[place] == arena.space.random(number, 1).tables[0]).all()
+    assert len(population) >= 40
+
+
+def test_q_learning_goes_on_with_what_it_learned_where_it_leads(arena, monkeypatch):
+    worse, better = in_order_of_quality(arena)
+    learning = finding("q", better, arena)
+    monkeypatch.setattr(auto.q_learning, "METHOD", learning)
+    with_openings(monkeypatch, finding("other", worse, arena), learning)
+    bred = next(state for state in searched(arena) if state.turn == 2)
+    assert bred.runs.tolist() == [1, 2, 0]
+    assert bred.searches[1].spent == 0.1 * BUDGET + auto.FEW_LEARNED_SHARE * BUDGET
 
 
 def test_a_climb_ends_where_no_single_change_helps_and_is_a_champion(arena):
@@ -119,5 +144,5 @@ def test_q_learning_begins_only_where_practice_does_not_trail(arena, monkeypatch
     learning = finding("q", worse, arena)
     monkeypatch.setattr(auto.practice, "METHOD", practicing)
     monkeypatch.setattr(auto.q_learning, "METHOD", learning)
-    monkeypatch.setattr(auto, "FEW_OPENINGS", ((other, 0.1), (practicing, 0.1), (learning, 0.1)))
+    with_openings(monkeypatch, other, practicing, learning)
     assert searched(arena)[-1].runs[2] == q_runs
