@@ -100,9 +100,8 @@ def test_a_variant_lacks_its_ingredient_and_leaves_the_method_as_it_was():
         with method_of(name) as method:
             assert method == "auto"
             lacking = name.removeprefix("auto_without_")
-            assert (auto.BRED_UNTIL > whole[2]) == (lacking == "finishing")
-            is_bred = auto.BRED_UNTIL > 0
-            assert is_bred == (lacking != "breeding")
+            expected = {"finishing": 0.97, "breeding": 0.0}.get(lacking, whole[2])
+            assert expected == auto.BRED_UNTIL
             assert lacking not in {part[0].name for part in auto.OPENINGS + auto.FEW_OPENINGS}
         assert whole == (auto.OPENINGS, auto.FEW_OPENINGS, auto.BRED_UNTIL, auto.FEW_BRED_UNTIL)
 

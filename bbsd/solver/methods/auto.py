@@ -52,7 +52,7 @@ BRED_UNTIL, FEW_BRED_UNTIL = 0.85, 0.96
 FEWEST_NOMINEES, NOMINEES_PER_EPISODE = 12, 1 / 20_000
 """Designs of a run that take part in the common episodes: at least, and of each episode of the budget.
 
-Of 1,300,000 on lifting, runs found the best known design in three seeds of twenty where it was not among their first 12.
+Of 1,300,000 on lifting, runs found the best known design in three of twenty seeds where it was not in their first 12.
 """
 CLIMBS = 3
 """Designs that climb, each to its optimum, before another run is worth more."""
