@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -17,14 +17,11 @@ from bbsd.explanation.worth import Appraisal, Worth
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-EPISODES = 1000
-"""The number of episodes by default, as in `evaluate`."""
-
 
 def worth(
     spec: AnySpec,
     *,
-    episodes: int = EPISODES,
+    episodes: int = EPISODES_OF_DESIGN,
     seed: int = 0,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
@@ -64,7 +61,7 @@ def faults(
     spec: AnySpec,
     faults: Sequence[str],
     *,
-    episodes: int = EPISODES,
+    episodes: int = EPISODES_OF_DESIGN,
     seed: int = 0,
     relearn: bool = False,
     lanes: int = DEFAULT_LANES,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import HolesLeft, given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -21,15 +21,12 @@ if TYPE_CHECKING:
     from bbsd.evaluation import PairedEpisodes
     from bbsd.language.loading import Loaded
 
-EPISODES = 1000
-"""The number of episodes by default, as in `evaluate`."""
-
 
 def compare(
     a: AnySpec,
     b: AnySpec,
     *,
-    episodes: int = EPISODES,
+    episodes: int = EPISODES_OF_DESIGN,
     seed: int = 0,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,

@@ -32,8 +32,7 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.specs import AnySpec, load
-from bbsd.api.tracing import EPISODES_OF_DESIGN
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 
 EPISODES_OF_RANDOM_AGENT = RANDOM_EPISODES
 """Episodes of each random agent by default, as after a design."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import architecture_of
 from bbsd.explanation import Explanation, explain_architecture
 from bbsd.language.loading import Loaded
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.architecture.visits import Visits
-
-EPISODES_OF_WORTH = 1000
-"""Episodes in which it is measured what a design would earn without a part, by default."""
 
 
 def explain(
@@ -45,11 +42,11 @@ def explain(
     architecture = architecture_of(loaded.meaning)
     visits = _visits(spec, loaded, architecture, seed, episodes, is_changed=bool(overrides))
     if worth and visits is None:
-        visits = _counted(loaded, architecture, seed, EPISODES_OF_WORTH)
+        visits = _counted(loaded, architecture, seed, EPISODES_OF_DESIGN)
     explanation = explain_architecture(loaded.meaning, architecture, visits)
     if not worth:
         return explanation
-    return _with_worth(loaded, architecture, explanation, seed, episodes or EPISODES_OF_WORTH)
+    return _with_worth(loaded, architecture, explanation, seed, episodes or EPISODES_OF_DESIGN)
 
 
 def _with_worth(

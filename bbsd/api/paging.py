@@ -11,8 +11,7 @@ from bbsd.api.appraising import worth
 from bbsd.api.comparing import compare
 from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
-from bbsd.api.specs import AnySpec, load
-from bbsd.api.tracing import EPISODES_OF_DESIGN
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import chosen_episode, trace

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+EPISODES_OF_DESIGN = 1000
+"""Episodes in which a design is measured, by default: of all verbs the same, so that their numbers agree."""
 AnySpec = str | Path | Loaded
 """The path of a spec's file, the folder of a run, which stands for its design, or a loaded spec."""
 

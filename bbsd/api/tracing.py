@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import (
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
 
     from bbsd.evaluation import Rank
     from bbsd.language.loading import Loaded
-
-EPISODES_OF_DESIGN = 1000
-"""Episodes in an evaluation of a design by default."""
 
 
 def trace(

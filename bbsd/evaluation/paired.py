@@ -49,10 +49,6 @@ class PairedEpisodes:
         with np.errstate(invalid="ignore"):
             return interval(self.returns[design] - self.returns[base])
 
-    def term_differences(self, design: int, base: int = 0) -> dict[str, Interval]:
-        """Return what each reward term gave a design more than another, with intervals."""
-        return {term: interval(values[design] - values[base]) for term, values in self.terms.items()}
-
     def joined(self, *others: PairedEpisodes) -> PairedEpisodes:
         """Return these designs and those of others behind them; a term that a spec does not have gave 0.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -48,7 +49,7 @@ def described_situation(
     known = [*environment.world, *environment.state, *environment.sensors, STEP]
     for name in given:
         if name not in known:
-            raise BadSituation(f"{name} is no state, world or sensor{did_you_mean(name, known)}")
+            raise BadSituation(_unknown(meaning, name, known))
     modules = modules_in_a_situation(meaning, [name for name in given if name in environment.sensors])
     nodes = [node for module in modules for node in (module.excited[robot], *module.cells[robot])]
     stored = _stored(meaning, given)
@@ -56,6 +57,13 @@ def described_situation(
     shown = {slot: _shown(meaning, slot, value) for slot, value in stored.items()}
     values = _evaluated(nodes, stored, given.get(STEP, 0), meaning.constants.vector(generation))
     return _situation(modules, values, values_of_robot(shown, robot))
+
+
+def _unknown(meaning: Meaning, name: str, known: Sequence[str]) -> str:
+    owners = [module.name for module in meaning.episode.modules if name in module.inputs]
+    if owners:
+        return f"{name} is an input of {owners[0]}, computed from world, state and sensors: give those"
+    return f"{name} is no state, world or sensor{did_you_mean(name, known)}"
 
 
 def _situation(
@@ -160,6 +168,8 @@ def _number(meaning: Meaning, slot: Slot, value: Given) -> float:
         return float(value)
     if not isinstance(value, int | float) or isinstance(value, bool):
         raise BadSituation(f"{slot.name}: {value!r} is no number")
+    if not isfinite(value):
+        raise BadSituation(f"{slot.name}: {value!r} is not finite")
     return float(value)
 
 

@@ -101,6 +101,8 @@ def test_a_value_may_be_for_all_robots():
         ({}, r"not all given: height, speed$"),
         ({"height": 2}, "not all given: speed"),
         ({"hight": 2}, 'hight is no state, world or sensor; did you mean "height"'),
+        ({"reached": True}, "reached is an input of stop_at_goal, computed from world, state and sensors"),
+        ({"height": float("inf"), "speed": 1}, "height: inf is not finite"),
         ({"height": [1, 2], "speed": 1}, "there are 3 robots, and 2 values are given"),
         ({"height": "high", "speed": 1}, "height: 'high' is no number"),
         ({"height": True, "speed": 1}, "height: True is no number"),
