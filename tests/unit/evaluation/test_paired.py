@@ -64,7 +64,7 @@ def test_designs_of_several_problems_are_put_side_by_side():
         "near": [[1.0, 2.0], [0.0, 0.0]],
         "far": [[0.0, 0.0], [4.0, 6.0]],
     }
-    assert both.term_differences(1)["near"].mean == -1.5
+    assert both.difference(1) == interval(np.array([3.0, 4.0]))
     with pytest.raises(ValueError, match="dimension"):
         ours.joined(PairedEpisodes(np.zeros((1, 3)), {}))
 
