@@ -26,7 +26,8 @@ TASKS = tuple(
     for name in ("cartpole", "mountain_car", "acrobot", "door_and_key", "survival", "aggregation")
 )
 
-
+VARIANTS = ("mobile_robot_failing_sonar",)
+"""Those for the paper's loop, as they count its generations."""
 SHORTER = {"tasks/aggregation": ["environment.steps=40"]}
 """Episodes of twenty robots take seconds without a compiler."""
 
@@ -41,7 +42,15 @@ def test_no_shipped_spec_has_a_mistake(path):
     assert bbsd.check(path) == ()
 
 
-@pytest.mark.parametrize("path", sorted(SPECS.glob("tasks/*.yaml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [
+        path
+        for path in sorted([*SPECS.glob("*.yaml"), *SPECS.glob("tasks/*.yaml")])
+        if path.stem not in VARIANTS
+    ],
+    ids=lambda path: path.stem,
+)
 def test_tasks_leave_the_method_to_whoever_designs_them(path):
     assert "design" not in yaml.safe_load(path.read_text())
 
