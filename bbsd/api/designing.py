@@ -15,6 +15,7 @@ from bbsd.evaluation.visits import visits_after_design
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
 from bbsd.runs.interim import best_so_far
+from bbsd.runs.joint_policy import joint_policy_returns
 from bbsd.runs.pace import budget_of
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
@@ -150,6 +151,7 @@ def design(
         others,
         _first_reward(folder, judged.selection),
         missed,
+        joint_policy_returns(command),
     )
 
 

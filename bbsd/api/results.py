@@ -141,6 +141,11 @@ class Designed:
     """Where all random agents earn the same: the episodes after which the search had a better design."""
     unvisited: tuple[Unvisited, ...]
     """Behaviors that have open cells which no candidate's episodes visited."""
+    joint: Interval | None = None
+    """What the joint policy of Q-learning earns in the same episodes, which behaviors may be unable to express.
+
+    None for other methods.
+    """
 
     @property
     def mean(self) -> float:

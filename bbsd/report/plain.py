@@ -59,6 +59,8 @@ def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
         "runs": runs,
         "search_episodes": designed.spent,
     }
+    if designed.joint is not None:
+        plain["joint_policy"] = interval_plain(designed.joint)
     if designed.each:
         plain["each_run"] = [
             {"return": interval_plain(returns), "structure": list(structure)}
@@ -88,6 +90,7 @@ def rival_plain(rival: Rival) -> dict[str, Plain]:
         "episodes": rival.episodes,
         "structure": list(rival.structure),
         **({"reason": rival.reason} if rival.reason else {}),
+        **({} if rival.joint is None else {"joint_policy": interval_plain(rival.joint)}),
     }
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 BAR_WIDTH = 24
 INTERVAL = "95 % interval"
+JOINT_POLICY = "as one joint table"
 
 
 def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> RenderableType:
@@ -183,11 +184,15 @@ def _fitness(designed: Designed) -> Table:
     rows = {"fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode"))}
     if designed.lifetime is not None:
         rows["lifetime fitness"] = (designed.lifetime, count(designed.lifetime.count, "lifetime"))
+    if designed.joint is not None:
+        rows["its joint policy"] = (designed.joint, JOINT_POLICY)
     for rival in designed.rivals:
         if rival.returns is None:
             continue
         basis = f"after {count(rival.episodes, 'episode')}"
         rows[f"rival {rival.method}"] = (rival.returns, basis)
+        if rival.joint is not None:
+            rows[f"joint policy of {rival.method}"] = (rival.joint, JOINT_POLICY)
     rows["random agents"] = (designed.random, count(designed.random.count, "agent"))
     intervals = [interval for interval, _ in rows.values()]
     texts = column(

@@ -11,6 +11,7 @@ from bbsd.language.lineage import overlay
 from bbsd.language.meaning import elaborate
 from bbsd.language.validation import validate
 from bbsd.runs.answers import complete_runs
+from bbsd.runs.joint_policy import joint_policy_returns
 from bbsd.runs.searching import UnsuitableMethod
 from bbsd.runs.storage.folder import Folder
 from bbsd.runs.storage.state import Searching
@@ -42,6 +43,8 @@ class Rival:
     structure: tuple[str, ...]
     reason: str = ""
     """Why the method could not search."""
+    joint: Interval | None = None
+    """What the joint policy of Q-learning earns; None for other methods."""
 
 
 def all_rivals(method: str) -> tuple[str, ...]:
@@ -59,7 +62,7 @@ def rival(command: Command, method: str, loaded: Loaded, jobs: int, listener: Li
     best = best_of(answers, other.problem, other.settings, other.seed)
     structure = tuple(other.problem.names[behavior] for behavior in reversed(best.structure))
     returns = fresh_returns(best, other.problem, other.settings, other.seed)
-    return Rival(method, returns, spent(other), structure)
+    return Rival(method, returns, spent(other), structure, joint=joint_policy_returns(other))
 
 
 def rival_command(command: Command, method: str, loaded: Loaded) -> Command:

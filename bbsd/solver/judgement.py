@@ -28,6 +28,8 @@ from bbsd.solver.random_agents import random_agents
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.solver.paper.settings import Settings
@@ -72,7 +74,7 @@ def judge(answers: Sequence[Architecture], problem: Problem, settings: Settings,
     key = seed_key(seed)
     best = best_of(answers, problem, settings, seed)
     generation = settings.coevolution.generations
-    fresh = keys(fold(key, JUDGED), 0, settings.answer.judged)
+    fresh = judging_keys(settings, seed)
     judged = evaluation(problem, detailed_outcomes(problem, agents_of([best]), fresh, generation), 1)
     lifetime = _lifetime_fitness(best, problem, settings, key) if settings.method == "paper" else None
     return Judgement(best, judged, lifetime, *_random_returns(problem, generation, fold(key, RANDOM)))
@@ -85,10 +87,14 @@ def best_of(answers: Sequence[Architecture], problem: Problem, settings: Setting
     return entrants[finish.winner]
 
 
+def judging_keys(settings: Settings, seed: int) -> NDArray[np.uint64]:
+    """Return the keys of the fresh episodes on which all answers of a seed are judged, (n_episodes,)."""
+    return keys(fold(seed_key(seed), JUDGED), 0, settings.answer.judged)
+
+
 def fresh_returns(architecture: Architecture, problem: Problem, settings: Settings, seed: int) -> Interval:
     """Return the return of a design on the fresh episodes on which all answers of a seed are judged."""
-    fresh = keys(fold(seed_key(seed), JUDGED), 0, settings.answer.judged)
-    generation = settings.coevolution.generations
+    fresh, generation = judging_keys(settings, seed), settings.coevolution.generations
     return interval(returns_of(problem, agents_of([architecture]), fresh, generation)[0])
 
 
