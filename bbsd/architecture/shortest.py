@@ -70,8 +70,8 @@ def rule_list(values: NDArray[np.int64], sizes: Sequence[int]) -> RuleList:
     """
     everything = tuple(tuple(range(size)) for size in sizes)
     wanted = values[values >= 0]
-    if not wanted.size:
-        return RuleList([(everything, NO_ACTION)], is_shortest=True)
+    if not wanted.size or (wanted == wanted[0]).all():  # one rule for all: nothing is shorter
+        return RuleList([(everything, int(wanted[0]) if wanted.size else NO_ACTION)], is_shortest=True)
     default = int(np.bincount(wanted).argmax())
     others = np.where(values == default, KEEP, values)
     greedy = [*cover(others, sizes), (everything, default)]

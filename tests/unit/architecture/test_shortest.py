@@ -177,5 +177,11 @@ def test_a_table_without_inputs_is_one_rule():
     assert rule_list(np.array([2]), []).boxes == [((), 2)]
 
 
+def test_one_decision_for_all_cells_is_the_shortest_however_many_there_are():
+    sizes = [30, 40]
+    found = rule_list(np.where(np.arange(1200) % 7, 2, FREE), sizes)
+    assert found == ([((tuple(range(30)), tuple(range(40))), 2)], True)
+
+
 if __name__ == "__main__":
     assert_tables_are_explained(10_000)
