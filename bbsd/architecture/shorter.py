@@ -81,7 +81,7 @@ def shorter(loaded: Loaded) -> Shorter:
     space = joint_space(meaning)
     if not space.is_small:
         raise TooLargeToProve(
-            f"the behaviors can tell {space.joint_size:,} joint cells apart, more than {MAX_JOINT_CELLS:,}, too many "
+            f"the behaviors can tell {space.joint_size:,} situations apart, more than {MAX_JOINT_CELLS:,}, too many "
             "to prove that a shorter design does the same"
         )
     control = np.unique(controlling(space, before))

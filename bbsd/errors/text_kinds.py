@@ -8,7 +8,7 @@ TEXT_KINDS = (
     DiagnosisKind(
         code="BB001",
         title="the file cannot be read",
-        explanation="There is no file of that name, it is a directory, or it may not be opened.",
+        explanation="There is no file of that name, it is a folder, or it may not be opened.",
         example="bbsd check lifting.yml",
         mend="bbsd check lifting.yaml",
     ),

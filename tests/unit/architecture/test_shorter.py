@@ -98,7 +98,7 @@ def test_a_design_is_needed():
 def test_what_is_too_large_to_prove_is_refused():
     given = LARGE.replace("actions: {go: {x: 1}}", "actions: {go: {x: 1}}, rules: [otherwise: go]")
     given = given.replace("actions: {go: {x: 2}}", "actions: {go: {x: 2}}, rules: [otherwise: go]")
-    with pytest.raises(TooLargeToProve, match=r"1,000,000 joint cells apart, more than 200,000"):
+    with pytest.raises(TooLargeToProve, match=r"1,000,000 situations apart, more than 200,000"):
         shorter(loaded(small(given + "structure: [one, two]\n")))
 
 

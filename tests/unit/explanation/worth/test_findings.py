@@ -142,6 +142,7 @@ def test_another_order_must_be_clearly_better():
         ("better order", "another order does better: a b, return +2.700 to +3.300")
     ]
     assert judged(behavior(LOSS), [perhaps]) == []
+    assert judged(behavior(LOSS), [perhaps, better]) == judged(behavior(LOSS), [better])
 
 
 def alike(*pairs):

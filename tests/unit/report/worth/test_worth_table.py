@@ -4,8 +4,11 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
+from bbsd.evaluation import Interval
+from bbsd.explanation.worth import Swap
 from bbsd.report.plain import json_text
 from bbsd.report.worth import order_dot, order_mermaid, worth_plain, worth_table
+from bbsd.report.worth.table import _verdict
 from tests.unit.explanation.worth.planted import appraisal_of, planted
 
 
@@ -110,3 +113,20 @@ def test_a_behavior_that_does_nothing_has_no_rules_to_drop():
     console = Console(file=StringIO(), width=80, color_system=None)
     console.print(worth_table(appraisal_of(text, episodes=2).worth()))
     assert "grab\n  no action" in "\n".join(line.rstrip() for line in console.file.getvalue().splitlines())
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "sd", "verdict"),
+    [
+        (-3.3, -2.7, 5.0, ""),
+        (2.7, 3.3, 5.0, "better"),
+        (-0.1, 0.3, 3.3, "no measurable change"),
+        (0.1, 0.7, 5.0, "not certain"),
+        (-0.7, -0.1, 5.0, "not certain"),
+        (0.0, 0.0, 0.0, "never any change"),
+    ],
+)
+def test_an_exchange_has_a_verdict(low, high, sd, verdict):
+    change = Interval((low + high) / 2, sd, low, high, 1000)
+    assert _verdict(Swap("a", "b", change, None)) == verdict
+    assert _verdict(Swap("a", "b", change, True)) == "proven equal by the tables"
