@@ -33,7 +33,8 @@ def changes(values: Sequence[float]) -> list[str]:
     """Return differences for a column, as `column` does, with a sign where they are not 0."""
     texts = column(values)
     return [
-        f"+{text}" if value > 0 and float(text) else text for value, text in zip(values, texts, strict=True)
+        f"+{text}" if value > 0 and (not isfinite(value) or float(text)) else text
+        for value, text in zip(values, texts, strict=True)
     ]
 
 

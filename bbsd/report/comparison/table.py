@@ -6,18 +6,18 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from rich.console import Group
-from rich.table import Table
 from rich.text import Text
 
 from bbsd.errors import escape
 from bbsd.explanation.conditions import join_words
-from bbsd.report.numbers import column, count, percent
-from bbsd.report.tables import INTERVAL
+from bbsd.report.numbers import changes, column, count, percent
+from bbsd.report.tables import INTERVAL, plain_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from rich.console import RenderableType
+    from rich.table import Table
 
     from bbsd.evaluation import Interval
     from bbsd.explanation.comparison import Comparison
@@ -62,15 +62,8 @@ def _line(text: str) -> Text:
     return Text(escape(text), no_wrap=True, overflow="ignore")
 
 
-def _table(*headings: str, right: Sequence[int] = ()) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
-    for index, heading in enumerate(headings):
-        table.add_column(Text(heading), justify="right" if index in right else "left", overflow="fold")
-    return table
-
-
 def _returns(comparison: Comparison) -> Table:
-    table = _table("", "A", "B", "B - A", INTERVAL, right=[1, 2, 3])
+    table = plain_table("", "A", "B", "B - A", INTERVAL, right=[1, 2, 3])
     difference = comparison.difference
     rows: list[tuple[str, float | None, float | None, Interval | None]]
     rows = [("return", comparison.return_a.mean, comparison.return_b.mean, difference)]
@@ -90,15 +83,8 @@ def _returns(comparison: Comparison) -> Table:
 def _intervals(intervals: Sequence[Interval]) -> list[tuple[str, str]]:
     """Return differences with a sign, and their intervals, with the same decimals."""
     numbers = [number for each in intervals for number in (each.mean, each.low, each.high)]
-    texts = column(numbers)
-    return [
-        (_signed(texts[index]), f"{_signed(texts[index + 1])} to {_signed(texts[index + 2])}")
-        for index in range(0, len(texts), 3)
-    ]
-
-
-def _signed(text: str) -> str:
-    return text if text.startswith("-") or not text.strip("0.") or not text[0].isdigit() else f"+{text}"
+    texts = changes(numbers)
+    return [(texts[index], f"{texts[index + 1]} to {texts[index + 2]}") for index in range(0, len(texts), 3)]
 
 
 def _commands(commands: Commands) -> RenderableType:
@@ -110,7 +96,7 @@ def _commands(commands: Commands) -> RenderableType:
         f"In {shares[0]} of A's robot-steps B would have commanded something else, in {shares[1]} of B's A would have "
         f"({watched} of each):"
     )
-    table = _table("of A", "of B", "A does, and B", right=[0, 1])
+    table = plain_table("of A", "of B", "A does, and B", right=[0, 1])
     shown, rest = commands.differences[:MOST_ROWS], commands.differences[MOST_ROWS:]
     for each in shown:
         what = f"{_command(each.a)}; {_command(each.b)}"
@@ -141,7 +127,7 @@ def _with_places(what: str, where: Sequence[str], left: int = 0) -> Text:
 
 
 def _rules(rules: Sequence[RuleChange]) -> RenderableType:
-    table = _table("in A", "in B", "rules that differ", right=[0, 1])
+    table = plain_table("in A", "in B", "rules that differ", right=[0, 1])
     for rule in rules[:MOST_ROWS]:
         what = f"{rule.behavior}: {rule.before} becomes {rule.after}"
         if not rule.where:
@@ -158,7 +144,7 @@ def _share(share: float | None) -> str:
 
 def _order(comparison: Comparison) -> RenderableType:
     order = comparison.order
-    table = _table("order in A", "order in B, highest layer first")
+    table = plain_table("order in A", "order in B, highest layer first")
     for names in zip_longest(order.a, order.b, fillvalue=""):
         table.add_row(*(Text(escape(name)) for name in names))
     only = [
@@ -174,7 +160,7 @@ def _order(comparison: Comparison) -> RenderableType:
 
 
 def _sources(comparison: Comparison) -> RenderableType:
-    table = _table("change", "taken over into A", "taken back in B", right=[1, 2])
+    table = plain_table("change", "taken over into A", "taken back in B", right=[1, 2])
     measured = [
         each for source in comparison.sources for each in (source.in_a, source.in_b) if each is not None
     ]

@@ -59,3 +59,8 @@ def test_means_have_half_their_intervals_behind_them():
     assert with_halves([]) == []
     missing = Interval(nan, nan, nan, nan, 9)
     assert with_halves([missing, intervals[0]]) == ["not finite", "-549.08 ±1.12"]
+
+
+def test_changes_have_a_sign_where_they_are_not_0():
+    assert changes([2.5, -1.0, 0.0]) == ["+2.5000", "-1.0000", "0.0000"]
+    assert changes([inf, -inf, nan, 1.0]) == ["+infinite", "-infinite", "unknown", "+1.0000"]
