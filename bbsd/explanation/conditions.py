@@ -9,7 +9,7 @@ import numpy as np
 from bbsd.architecture.boxes import FREE, KEEP, cover
 from bbsd.architecture.rules import cell_words, n_words_of, sizes_of
 from bbsd.architecture.spec_changes import MOST_WORDS
-from bbsd.explanation.words import Condition, Place
+from bbsd.explanation.words import Condition, PlaceInWords
 from bbsd.language.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
@@ -41,7 +41,9 @@ def conditions_of(box: Box, inputs: Inputs) -> tuple[Condition, ...]:
     )
 
 
-def places(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs) -> tuple[Place, ...]:
+def places_in_words(
+    cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs
+) -> tuple[PlaceInWords, ...]:
     """Return places, one of which holds each cell of `cells`, and none a cell outside `cells` and `allowed`.
 
     Both are (n_cells,). The result is empty if the conditions would be too long to read.
@@ -51,7 +53,7 @@ def places(cells: NDArray[np.bool_], allowed: NDArray[np.bool_], inputs: Inputs)
     return (
         ()
         if n_words_of(boxes, inputs) > MOST_WORDS
-        else tuple(Place(condition_text(box, inputs), conditions_of(box, inputs)) for box, _ in boxes)
+        else tuple(PlaceInWords(condition_text(box, inputs), conditions_of(box, inputs)) for box, _ in boxes)
     )
 
 

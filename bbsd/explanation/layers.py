@@ -13,7 +13,7 @@ from bbsd.architecture.rules import n_words_of, sizes_of
 from bbsd.architecture.shortest import rule_list, unordered_cover
 from bbsd.architecture.spec_changes import MOST_WORDS
 from bbsd.explanation.cells import cares_of, in_order
-from bbsd.explanation.conditions import condition_text, conditions_of, places
+from bbsd.explanation.conditions import condition_text, conditions_of, places_in_words
 from bbsd.explanation.useless import depends_on, useless_of
 from bbsd.explanation.vocabulary import actions_of, inputs_of
 from bbsd.explanation.whole import rows_of
@@ -23,7 +23,7 @@ from bbsd.explanation.words import (
     InputInWords,
     LayerInWords,
     NeverAsked,
-    Place,
+    PlaceInWords,
     RuleInWords,
     Watched,
 )
@@ -77,7 +77,7 @@ def explain_architecture(
         left_out=tuple(name for index, name in enumerate(behaviors) if index not in order),
         joint_size=space.joint_size,
         possible_cells=None if possible is None else int(np.count_nonzero(possible)),
-        nobody=places(nobody, never, space.dimensions) if nobody.any() else (),
+        nobody=places_in_words(nobody, never, space.dimensions) if nobody.any() else (),
         nobody_cells=None if control is None else int(nobody.sum()),
         rows=rows_of(meaning, architecture, cares, visits),
         useless=tuple(useless_of(meaning, architecture, cares, layers, visits)),
@@ -138,13 +138,13 @@ def _inputs(module: Module, depends: Sequence[bool]) -> tuple[InputInWords, ...]
 
 def _overruled(
     cares: Cares, said: NDArray[np.int64], inputs: Inputs
-) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
+) -> tuple[tuple[PlaceInWords, ...], tuple[PlaceInWords, ...]]:
     """Return where rules have an action and higher layers always act before, and where it is left to the behavior."""
     lost, left = cares.covered & (said > 0), ~cares.covered & (said > 0)
     if not lost.any():
         return (), ()
     free = cares.impossible | (said == 0)
-    return places(lost, free | (cares.covered & ~lost), inputs), places(left, free, inputs)
+    return places_in_words(lost, free | (cares.covered & ~lost), inputs), places_in_words(left, free, inputs)
 
 
 def _counts(

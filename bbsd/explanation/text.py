@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.explanation.vocabulary import GlossaryEntry
-    from bbsd.explanation.words import Explanation, LayerInWords, Place, Useless, Watched
+    from bbsd.explanation.words import Explanation, LayerInWords, PlaceInWords, Useless, Watched
 
 NAME_WIDTH = 24
 """The widest column of names; a longer name stands on a line of its own."""
@@ -213,7 +213,7 @@ def _time(explanation: Explanation) -> list[str]:
     return wrapped(f"In {_episodes(watched)}, {join_words(shares, 'and')}.")
 
 
-def _nobody(places: Sequence[Place]) -> list[str]:
+def _nobody(places: Sequence[PlaceInWords]) -> list[str]:
     if not places:
         return []
     n_more = len(places) - MAX_PLACES

@@ -21,7 +21,7 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PlaceInWords:
     """Where something holds: in words, '' everywhere, and the condition for programs as in `RuleInWords`."""
 
     where: str
@@ -110,8 +110,8 @@ class LayerInWords:
     """The decision of each cell, '' where the cell does not count; empty for tables that nobody reads."""
     counted: tuple[CellsInWords, ...]
     kinds: CellKinds
-    covered: tuple[Place, ...]
-    effective: tuple[Place, ...]
+    covered: tuple[PlaceInWords, ...]
+    effective: tuple[PlaceInWords, ...]
     overruled_by: tuple[str, ...]
     never_asked: tuple[NeverAsked, ...]
     cells: int | None
@@ -183,7 +183,7 @@ class Explanation:
     joint_size: int
     possible_cells: int | None
     """The joint cells that may occur: those that the expressions of the spec do not exclude."""
-    nobody: tuple[Place, ...]
+    nobody: tuple[PlaceInWords, ...]
     nobody_cells: int | None
     rows: tuple[Row, ...]
     """The whole architecture, the most visited rows first where visits are known; empty if too long to read."""

@@ -9,7 +9,7 @@ import numpy as np
 from bbsd.explanation.comparison.common import definition_differences
 from bbsd.explanation.comparison.hosting import same_behaviors
 from bbsd.explanation.comparison.results import Order, Redefined, RuleChange
-from bbsd.explanation.conditions import places
+from bbsd.explanation.conditions import places_in_words
 from bbsd.language.models import NO_ACTION_TEXT
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def rule_changes(a: Design, b: Design) -> Iterator[tuple[RuleChange, NDArray[np.
     for name, before, after, cells in changed_cells(a, b):
         module = a.modules[name]
         words, nowhere = (NO_ACTION_TEXT, *module.actions), np.zeros_like(cells)
-        where = tuple(place.where for place in places(cells, nowhere, module.inputs))
+        where = tuple(place.where for place in places_in_words(cells, nowhere, module.inputs))
         yield RuleChange(name, words[before], words[after], int(cells.sum()), where), cells
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.evaluation.spread import spread_of
 from bbsd.report.page.columns import shortened
 from bbsd.report.plain import finite_or_none
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Interval
     from bbsd.report.plain import Plain
 
-QUANTILES = {"worst": 0.0, "5 %": 0.05, "25 %": 0.25, "median": 0.5, "75 %": 0.75, "95 %": 0.95, "best": 1.0}
 BINS = 40
 
 
@@ -25,13 +25,15 @@ def earns_plain(page: Page) -> dict[str, Plain]:
     measured = page.evaluation
     names = [*page.loaded.spec.behaviors, "nobody"]
     numbers = {name: index for index, name in enumerate(names[:-1])} | {"nobody": -1}
-    values = np.quantile(page.returns, list(QUANTILES.values()))
+    spread = spread_of(page.returns, numbered=False)
+    quantiles = {"median" if each == 50 else f"{each} %": value for each, value in spread.quantiles.items()}
     return {
         **_interval(measured.returns),
         "episodes": measured.episodes,
         "steps": measured.steps,
         "quantiles": [
-            [name, shortened(value)] for name, value in zip(QUANTILES, values.tolist(), strict=True)
+            [name, shortened(value)]
+            for name, value in {"worst": spread.worst, **quantiles, "best": spread.best}.items()
         ],
         "random": None if page.run is None else _interval(page.run.random),
         "terms": [[name, finite_or_none(value)] for name, value in measured.reward_terms.items()],

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.explanation.conditions import condition_text, join_words, places
-from bbsd.explanation.words import Place
+from bbsd.explanation.conditions import condition_text, join_words, places_in_words
+from bbsd.explanation.words import PlaceInWords
 
 INPUTS = {
     "tilted": ("false", "true"),
@@ -39,14 +39,14 @@ def test_a_box_is_a_condition_in_words(chosen, words):
 def test_places_name_all_cells_wanted_and_no_others():
     where = np.array([[0, 1], [0, 1], [0, 0]], bool).ravel()
     inputs = {"place": INPUTS["place"], "tilted": INPUTS["tilted"]}
-    (place,) = places(where, np.zeros(6, bool), inputs)
+    (place,) = places_in_words(where, np.zeros(6, bool), inputs)
     assert place.where == "place is not middle and tilted"
     assert [(each.input, each.cells) for each in place.when] == [("place", (0, 1)), ("tilted", (1,))]
 
 
 def test_places_reach_over_what_is_allowed_where_that_is_shorter():
     where, allowed = np.array([1, 1, 0], bool), np.array([0, 0, 1], bool)
-    assert places(where, allowed, {"place": INPUTS["place"]}) == (Place("", ()),)
+    assert places_in_words(where, allowed, {"place": INPUTS["place"]}) == (PlaceInWords("", ()),)
 
 
 @given(st.data())
@@ -54,7 +54,7 @@ def test_there_is_a_place_if_and_only_if_a_cell_is_wanted(data):
     inputs = dict(data.draw(st.lists(st.sampled_from([*INPUTS.items()]), unique=True, max_size=2)))
     size = prod(len(cells) for cells in inputs.values())
     where = np.array(data.draw(st.lists(st.booleans(), min_size=size, max_size=size)))
-    assert bool(places(where, ~where, inputs)) == where.any()
+    assert bool(places_in_words(where, ~where, inputs)) == where.any()
 
 
 def test_words_are_listed():
