@@ -43,14 +43,19 @@ FEW_OPENINGS = (
 """With a budget below that, those that need the fewest episodes."""
 LEARNED_SHARE, FEW_LEARNED_SHARE = 0.15, 0.10
 """Of the budget, what Q-learning goes on for where it leads after the openings."""
-FURTHER_SHARE = 0.14
-"""Of the budget, what a further run of the leading search gets."""
+FURTHER_SHARE, LONGEST_FURTHER = 0.22, 180_000
+"""Of the budget, what a further run of the leading search gets, and its episodes at most.
+
+With 14 % of 400,000 to 600,000 episodes, pursuit and forager came to worse designs; with 22 % of 1,300,000 lifting did.
+"""
 MOST_BRED = 150_000
 """Episodes of breeding at most; a larger budget is spent on further runs before."""
 BRED_UNTIL, FEW_BRED_UNTIL = 0.85, 0.96
 """Share of the budget that is spent when breeding ends and climbs begin, which need many episodes."""
-FEWEST_NOMINEES, NOMINEES_PER_EPISODE = 12, 1 / 20_000
-"""Designs of a run that take part in the common episodes: at least, and of each episode of the budget.
+NOMINEES = 12
+"""Designs of a run that take part in the common episodes."""
+MANY, MANY_NOMINEES = 1_000_000, 50
+"""With a budget of so many episodes, there are more of them.
 
 Of 1,300,000 on lifting, runs found the best known design in three of twenty seeds where it was not in their first 12.
 """
@@ -163,7 +168,7 @@ def _with_own_champions(state: AutoState) -> AutoState:
 def _after_run(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
     """Let the best designs of a run that is over take part in the common episodes, and give the next turn."""
     index, champions = state.turn, state.searches[state.turn].champions
-    most = max(FEWEST_NOMINEES, int(state.planned_in_all * NOMINEES_PER_EPISODE))
+    most = NOMINEES if state.planned_in_all < MANY else MANY_NOMINEES
     nominees = Designs(champions.tables[:most], champions.structures[:most])
     state = nominated(state, arena, fold(key, COMMON), nominees, budget - state.spent)
     best, runs = state.best.copy(), state.runs.copy()
@@ -185,7 +190,7 @@ def _after_openings(state: AutoState, arena: Arena, key: int, budget: int) -> Au
         share = FEW_LEARNED_SHARE if is_few else LEARNED_SHARE
         return _with_more(state, leader, max(int(share * budget), until - MOST_BRED - state.spent))
     if state.spent < until - MOST_BRED and not learns:
-        return _with_further_run(state, arena, key, int(FURTHER_SHARE * budget))
+        return _with_further_run(state, arena, key, min(int(FURTHER_SHARE * budget), LONGEST_FURTHER))
     if state.spent < until and not state.runs[breeding]:
         return _with_breeding(state, arena, fold(key, BREEDING), until - state.spent)
     return replace(state, turn=len(state.searches), climbs=0)
