@@ -17,7 +17,7 @@ def test_a_fault_is_beside_the_undisturbed_design():
     assert code == 0
     plain = json.loads(out)
     assert plain["return"]["mean"] == bbsd.evaluate(HAND, episodes=200).mean
-    assert [each["name"] for each in plain["faults"]] == ["round_corner", "seek_goal", "follow_wall"]
+    assert [each["name"] for each in plain["faults"]] == ["seek_goal", "follow_wall", "round_corner"]
     worth = bbsd.worth(HAND, episodes=200)
     changes = {each.behavior: each.dropped.mean for each in worth.behaviors}
     assert {each["name"]: each["change"]["mean"] for each in plain["faults"]} == changes

@@ -7,6 +7,7 @@ import pytest
 import bbsd
 from bbsd.explanation.why import answer_text
 from bbsd.explanation.why.aim import Act, NoSuchAction, acts_named
+from bbsd.explanation.why.described import BadSituation
 from bbsd.report.plain import json_text
 from tests.unit.architecture.designs import SPECS
 
@@ -110,9 +111,32 @@ def test_a_why_is_plain_data():
     assert found["then"] == "hurry_up.faster"
 
 
-def test_values_that_are_not_finite_are_none_in_plain_data():
-    answer = bbsd.why(LIFTING, at={"height": [float("inf"), 2, 2], "speed": 2})
-    assert answer.to_plain()["values"]["height"] is None
+def test_values_that_are_not_finite_are_none_in_plain_data(tmp_path):
+    path = tmp_path / "growing.yaml"
+    path.write_text(
+        """
+bbsd: 1
+name: growing
+environment:
+  steps: 4
+  state: {x: 1, near: false}
+  dynamics: {x: x * 1e200}
+behaviors:
+  go:
+    inputs: {far: x > 2}
+    actions: {stay: {near: true}}
+    rules: [{otherwise: stay}]
+structure: [go]
+reward: {near: 1 if near else 0}
+"""
+    )
+    before = [bbsd.why(path, step=step).to_plain()["values"]["x"] for step in (1, 2, 3)]
+    assert before == [1, 1e200, None]
+
+
+def test_a_given_value_has_to_be_finite():
+    with pytest.raises(BadSituation, match="height: inf is not finite"):
+        bbsd.why(LIFTING, at={"height": [float("inf"), 2, 2], "speed": 2})
 
 
 def test_a_name_stands_for_an_action_a_behavior_or_an_action_of_a_behavior():
