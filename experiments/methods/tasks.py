@@ -79,9 +79,7 @@ class Task:
     def paper_path(self) -> Path | None:
         """The file of the spec with settings of the paper's loop for this task, None where there are none."""
         path = SPECS / "paper" / f"{self.name}.yaml"
-        if path.exists():
-            return path
-        return self.path if self.loaded.spec.design.loop_keys else None
+        return path if path.exists() else None
 
     def digest(self, method: str) -> str:
         """Return what tells results of this task from those of another state of it or of bbsd."""
