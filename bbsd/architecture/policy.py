@@ -112,10 +112,14 @@ def joint_space(meaning: Meaning) -> JointSpace:
 
 
 def _by_name(dimensions: Iterable[Dimension]) -> dict[str, Labels]:
-    """Return the cells of each dimension by its name; a repeated name is followed by the behavior's."""
+    """Return the cells of each dimension by its name; a repeated name is followed by the behavior's.
+
+    A behavior may have both an input and a condition of that name.
+    """
     cells_by_name: dict[str, Labels] = {}
     for name, cells, owner in dimensions:
-        cells_by_name[name if name not in cells_by_name else f"{name} of {owner}"] = cells
+        names = (name, f"{name} of {owner}", f"{name} of {owner}, excited")
+        cells_by_name[next(each for each in names if each not in cells_by_name)] = cells
     return cells_by_name
 
 

@@ -10,6 +10,7 @@ from bbsd.architecture.boxes import FREE, KEEP, first_match
 from bbsd.architecture.policy import controlling, joint_space
 from bbsd.architecture.possible import possible_cells
 from bbsd.architecture.rules import n_words_of, sizes_of
+from bbsd.architecture.sayings import one_line
 from bbsd.architecture.shortest import rule_list, unordered_cover
 from bbsd.architecture.spec_changes import MOST_WORDS
 from bbsd.explanation.cells import cares_of, in_order
@@ -164,7 +165,7 @@ def _counts(
 
 
 def _one_line(condition: Expression | None) -> str | None:
-    return None if condition is None else " ".join(condition.text.split())
+    return None if condition is None else one_line(condition)
 
 
 def _rules(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from bbsd.architecture.sayings import input_texts, mapping_text
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from bbsd.language.field_types import Expression
-    from bbsd.language.models import Behavior, PartitionText, Spec
+    from bbsd.language.models import Spec
 
 
 class GlossaryEntry(NamedTuple):
@@ -23,40 +24,17 @@ def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]
     return _entries(
         (behavior, name, meaning)
         for behavior in behaviors
-        for name, meaning in _inputs(spec, spec.behaviors[behavior]).items()
+        for name, meaning in input_texts(spec, spec.behaviors[behavior]).items()
     )
 
 
 def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:
     """Return the actions of some behaviors, each once, in order of first use."""
     return _entries(
-        (behavior, name, _mapping(sets))
+        (behavior, name, mapping_text(sets))
         for behavior in behaviors
         for name, sets in spec.behaviors[behavior].actions.items()
     )
-
-
-def _inputs(spec: Spec, behavior: Behavior) -> dict[str, str]:
-    """Return the meaning of each input of a behavior: its partition, or the state that it reads."""
-    if isinstance(behavior.inputs, dict):
-        return {name: _partition(written) for name, written in behavior.inputs.items()}
-    sensors, state = spec.environment.sensors, spec.environment.state
-    return {
-        name: _partition(sensors[name]) if name in sensors else f"state, starts as {_text(state[name])}"
-        for name in behavior.inputs
-    }
-
-
-def _partition(written: PartitionText) -> str:
-    return _mapping(written) if isinstance(written, dict) else _text(written)
-
-
-def _mapping(written: dict[str, Expression]) -> str:
-    return "; ".join(f"{name}: {_text(expression)}" for name, expression in written.items()) or "nothing"
-
-
-def _text(expression: Expression) -> str:
-    return " ".join(expression.text.split())
 
 
 def _entries(uses: Iterable[tuple[str, str, str]]) -> tuple[GlossaryEntry, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bbsd.architecture.boxes import FREE, KEEP, first_match
 from bbsd.architecture.rules import n_words_of, sizes_of
+from bbsd.architecture.sayings import one_line
 from bbsd.architecture.shortest import unordered_cover
 from bbsd.architecture.spec_changes import MOST_WORDS
 from bbsd.explanation.conditions import condition_text, conditions_of
@@ -61,7 +62,7 @@ def _rows_of_layer(
             list(module.actions)[decision - 1],
             condition_text(box, module.inputs),
             conditions_of(box, module.inputs),
-            None if excited is None else " ".join(excited.text.split()),
+            None if excited is None else one_line(excited),
             None if visits is None else int(visits.controlled[behavior][first == index].sum()),
         )
         for index, (box, decision) in enumerate(boxes)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.architecture import joint_space
 from bbsd.architecture.possible import possible_cells
+from bbsd.architecture.sayings import one_line
 from bbsd.evaluation.decisions import layers_of
 from bbsd.explanation.why.aim import NOBODY
 from bbsd.explanation.why.otherwise import otherwise
@@ -139,7 +140,7 @@ def _layer(meaning: Meaning, layer: Layer, number: int, situation: Situation, no
         layer=number,
         behavior=layer.behavior,
         excited=situation.excited[layer.index],
-        condition=None if excited is None else " ".join(excited.text.split()),
+        condition=None if excited is None else one_line(excited),
         perceived=layer.cell_labels(situation.cells[layer.index]),
         wish=layer.wish(now.wishes[layer.index]),
         role=_role(layer.index, now),

@@ -8,6 +8,7 @@ import numpy as np
 
 from bbsd.architecture.boxes import first_match
 from bbsd.architecture.rules import sizes_of
+from bbsd.architecture.sayings import one_line
 from bbsd.explanation.conditions import join_words
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 
     from bbsd.api.paging import Page
     from bbsd.explanation import LayerInWords, RuleInWords
-    from bbsd.language.field_types import Expression
     from bbsd.language.meaning.behaviors import Module
     from bbsd.report.plain import Plain
 
@@ -47,12 +47,12 @@ def _behavior_plain(page: Page, index: int, module: Module, layer: LayerInWords 
     return {
         "name": module.name,
         "actions": [
-            {"name": name, "sets": [[command, _one_line(value)] for command, value in sets.items()]}
+            {"name": name, "sets": [[command, one_line(value)] for command, value in sets.items()]}
             for name, sets in written.actions.items()
         ],
         "inputs": [{"name": name, "cells": [*map(str, cells)]} for name, cells in module.inputs.items()],
-        "excited": None if written.excited is None else _one_line(written.excited),
-        "expects": None if written.expects is None else _one_line(written.expects),
+        "excited": None if written.excited is None else one_line(written.excited),
+        "expects": None if written.expects is None else one_line(written.expects),
         "rules": [
             {"decision": rule.decision, "where": rule.where, "overruled": rule.overruled} for rule in rules
         ],
@@ -119,7 +119,3 @@ def commands_plain(page: Page) -> list[Plain]:
     behaviors = page.loaded.spec.behaviors
     used = [behaviors[layer.behavior] for layer in reversed(page.explanation.layers)]
     return [*dict.fromkeys(name for each in used for sets in each.actions.values() for name in sets)]
-
-
-def _one_line(expression: Expression) -> str:
-    return " ".join(expression.text.split())

@@ -149,3 +149,15 @@ def test_in_a_large_space_the_tables_of_the_structure_are_compared():
     assert key == behavior_key(space, architecture([zeros, zeros, [1]], [0, 1]))
     assert key != behavior_key(space, architecture([zeros, zeros, [0]], [1, 0]))
     assert key != behavior_key(space, architecture([[1, *zeros[1:]], zeros, [0]], [0, 1]))
+
+
+def test_dimensions_have_different_names_whatever_inputs_and_behaviors_are_called():
+    space = joint_space(
+        meaning_of(
+            small("""
+  a: {inputs: {b: x > 1}, actions: {p: {x: 1}}}
+  b: {inputs: {b: x > 2}, excited: x > 3, actions: {p: {x: 1}}}
+""")
+        )
+    )
+    assert [*space.dimensions] == ["b", "b of b", "b of b, excited"]

@@ -1,0 +1,36 @@
+"""What a spec says of an input or an action, as text on one line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from bbsd.language.field_types import Expression
+    from bbsd.language.models import Behavior, PartitionText, Spec
+
+
+def input_texts(spec: Spec, behavior: Behavior) -> dict[str, str]:
+    """Return for each input of a behavior its partition, or the state that it reads."""
+    if isinstance(behavior.inputs, dict):
+        return {name: _partition(written) for name, written in behavior.inputs.items()}
+    sensors, state = spec.environment.sensors, spec.environment.state
+    return {
+        name: _partition(sensors[name]) if name in sensors else f"state, starts as {one_line(state[name])}"
+        for name in behavior.inputs
+    }
+
+
+def mapping_text(written: Mapping[str, Expression]) -> str:
+    """Return what an action sets, or named cells with their conditions; `nothing` where there is nothing."""
+    return "; ".join(f"{name}: {one_line(expression)}" for name, expression in written.items()) or "nothing"
+
+
+def one_line(expression: Expression) -> str:
+    """Return an expression as it is written, without line breaks."""
+    return " ".join(expression.text.split())
+
+
+def _partition(written: PartitionText) -> str:
+    return mapping_text(written) if isinstance(written, dict) else one_line(written)
