@@ -35,8 +35,8 @@ from bbsd.stopping import stop_request_of_context
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from bbsd.engines.processes import Processes
     from bbsd.language.loading import Loaded
-    from bbsd.runs.processes import Processes
     from bbsd.solver.paper.settings import Settings
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.results import (

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from bbsd.api import Designed, Interrupted
+    from bbsd.engines.processes import Processes
     from bbsd.language.loading import Loaded
     from bbsd.runs.price import Price
-    from bbsd.runs.processes import Processes
 
 LEAST_BUDGET = 5_000
 """As in `bbsd.language.design`, which takes long to import."""
@@ -234,9 +234,9 @@ def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ..
 def _workers(count: int) -> "AbstractContextManager[Processes | None]":
     if count == 0:
         return nullcontext()
-    from bbsd.runs.processes import waiting_processes
+    from bbsd.engines.processes import waiting_processes
 
-    return waiting_processes(count)
+    return waiting_processes(count, ("bbsd.runs.workers",))
 
 
 def _show_price(price: "Price", *, as_json: bool) -> None:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
+    from bbsd.engines.processes import Processes
     from bbsd.runs.command import Command, Listener
-    from bbsd.runs.processes import Processes
 
 
 def complete_runs(

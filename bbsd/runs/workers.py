@@ -10,8 +10,8 @@ from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, nullcontext, suppress
 from typing import TYPE_CHECKING
 
+from bbsd.engines.processes import Processes, waiting_processes
 from bbsd.errors import UsageError
-from bbsd.runs.processes import Processes, waiting_processes
 from bbsd.runs.rehearsal import rehearse
 from bbsd.runs.storage.following import Follower
 from bbsd.stopping import StopRequest, current_stop_request, raise_if_stopped
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     Submit = Callable[[int], Future[Architecture]]
 
+NEEDED = ("bbsd.runs.workers",)
+"""What workers import before their first run."""
 REPORT_INTERVAL = 0.1
 """Seconds between two looks at the workers' metrics."""
 
@@ -53,7 +55,7 @@ def side_by_side(
     threads = jobs // (n_workers + 1)
     own = command.with_threads(jobs - n_workers * threads)
     with (
-        nullcontext(ready) if ready is not None else waiting_processes(n_workers) as processes,
+        nullcontext(ready) if ready is not None else waiting_processes(n_workers, NEEDED) as processes,
         _working(processes, command.with_threads(threads)) as submit,
     ):
         # Everything is compiled once, here, while the workers import what they need.

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
+from bbsd.engines.processes import waiting_processes
 from bbsd.errors import UsageError
 from bbsd.runs import workers
 from bbsd.runs.answers import complete_runs
-from bbsd.runs.processes import waiting_processes
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.workers import WorkerLost, side_by_side
 from bbsd.stopping import StopRequest
@@ -75,7 +75,7 @@ def test_jobs_that_are_left_over_are_threads(monkeypatch, command, jobs, expecte
         seen.extend([count, of_workers.problem.jobs])
         raise Enough
 
-    monkeypatch.setattr(workers, "waiting_processes", nullcontext)
+    monkeypatch.setattr(workers, "waiting_processes", lambda count, _imports: nullcontext(count))
     monkeypatch.setattr(workers, "_working", at_work)
     with pytest.raises(Enough):
         side_by_side(command("jobs"), [*range(RUNS)], jobs, None)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.runs.processes import ENVIRONMENT, STOPPED, waiting_processes
+from bbsd.engines.processes import ENVIRONMENT, STOPPED, waiting_processes
 
 SOON = 20
 """Seconds, on a machine that has much else to do."""
@@ -40,7 +40,7 @@ def test_what_is_submitted_is_done_in_another_process():
 
 SHARING = """
 import os
-from bbsd.runs.processes import waiting_processes
+from bbsd.engines.processes import waiting_processes
 
 with waiting_processes(1) as processes:
     print(processes.submit(os.getenv, "BBSD_CACHE_DIR").result() == os.environ["BBSD_CACHE_DIR"])
@@ -83,6 +83,26 @@ def test_what_was_dismissed_does_what_was_submitted_before():
         answer = processes.submit(pow, 2, 10)
         processes.dismiss()
         assert answer.result() == 1024
+
+
+@pytest.mark.slow
+def test_a_process_that_is_lost_takes_no_other_with_it_and_gets_a_successor():
+    with waiting_processes(2) as processes:
+        long, dead = processes.submit(time.sleep, 1), processes.submit(os._exit, 1)
+        with pytest.raises(BrokenExecutor):
+            dead.result()
+        first, second = (processes.submit(os.getpid) for _ in range(2))
+        assert long.result() is None
+        assert first.result() != second.result()
+        assert processes.submit(os.getpid).result() in {first.result(), second.result()}
+    for worker in (first.result(), second.result()):
+        assert_gone(worker)
+
+
+@pytest.mark.slow
+def test_modules_are_imported_before_the_first_call():
+    with waiting_processes(1, ["colorsys"]) as processes:
+        assert processes.submit(eval, "'colorsys' in __import__('sys').modules").result()
 
 
 def test_nobody_waits_for_workers_that_nothing_was_submitted_to():

@@ -1,0 +1,43 @@
+"""What every engine can do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+    from typing import Self
+
+    from bbsd.engines.units import Result, Unit
+
+ATTEMPTS = 4
+"""Workers that a unit may lose in a row without getting any further; it is then the unit that kills them."""
+
+
+class WorkerLost(Exception):
+    """A worker that ended while it was doing a unit."""
+
+    def __init__(self, times: int = 1) -> None:
+        super().__init__(f"{times} workers were lost")
+        self.times = times
+        """How many workers the unit lost before this was told."""
+
+    def __reduce__(self) -> tuple[type[Self], tuple[int]]:
+        return type(self), (self.times,)
+
+
+class Engine(Protocol):
+    """Workers somewhere, which do units."""
+
+    def capacity(self) -> int:
+        """Return how many units can be done at the same time now; it may change, and be 0 for a while."""
+
+    def submit(self, unit: Unit) -> Future[Result]:
+        """Let a worker do a unit.
+
+        The future raises WorkerLost where the worker was lost, OtherVersion where it has another version of bbsd, and
+        whatever the unit's own work raised.
+        """
+
+    def stop(self) -> None:
+        """Ask all workers to stop soon; from any thread."""
