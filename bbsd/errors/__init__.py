@@ -3,7 +3,7 @@
 from bbsd.errors.catalog import KINDS, describe
 from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
 from bbsd.errors.kind import DiagnosisKind, Severity
-from bbsd.errors.rendering import escape, render_json, render_text
+from bbsd.errors.rendering import character_name, escape, render_json, render_text
 from bbsd.errors.suggestion import did_you_mean
 from bbsd.errors.usage import UsageError
 
@@ -16,6 +16,7 @@ __all__ = [
     "Severity",
     "SpecError",
     "UsageError",
+    "character_name",
     "describe",
     "did_you_mean",
     "escape",

@@ -204,4 +204,15 @@ EXPRESSION_KINDS = (
         example="reward:\n  near: sum(sum(height * i + j for i in range(5000)) for j in range(5000))",
         mend="reward:\n  near: sum(sum(height * i + j for i in range(50)) for j in range(50))",
     ),
+    DiagnosisKind(
+        code="BB125",
+        title="a number that is not what it looks like",
+        explanation=(
+            "Numbers are binary64, and what is written is what is kept. A zero in front makes a number octal in other "
+            "languages; a whole number beyond 2 ** 53 may lose its last digits; and what comes to infinity or to no "
+            "number at all, whatever happens in an episode, is no value."
+        ),
+        example="constants:\n  limit: 010\nreward:\n  near: limit",
+        mend="constants:\n  limit: 10\nreward:\n  near: limit",
+    ),
 )

@@ -19,12 +19,18 @@ STYLES = {Severity.MISTAKE: RED, Severity.WARNING: YELLOW}
 
 
 def escape(text: str) -> str:
-    """Return a text with control and format characters, which steer a terminal or hide, as visible escapes."""
+    """Return a text with what steers a terminal, hides or looks like a blank as visible escapes."""
     return "".join(_visible(character) for character in text)
 
 
+def character_name(character: str) -> str:
+    """Return what Unicode calls a character: `U+00A0 (no-break space)`."""
+    name = unicodedata.name(character, "").lower()
+    return f"U+{ord(character):04X}" + (f" ({name})" if name else "")
+
+
 def _visible(character: str) -> str:
-    if character.isprintable() or unicodedata.category(character) in {"Zs", "Co"}:
+    if character.isprintable() or unicodedata.category(character) == "Co":
         return character
     return character.encode("unicode_escape").decode("ascii")
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
+from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.tree import Generator
 
@@ -24,6 +26,16 @@ def require_kind(value: Value, kind: Kind, span: Span, scope: Scope) -> Node:
         message = f"{value.kind.value}, where {kind.value} is needed"
         return scope.mistake("BB055", message, span, ADVICE.get(value.kind, ""))
     return value
+
+
+def require_finite(value: Value, span: Span, scope: Scope) -> Value:
+    """Return a value with literals that are infinite or not a number reported and replaced by unknown ones."""
+    if isinstance(value, tuple):
+        return tuple(require_finite(item, span, scope) for item in value)
+    if not value.literal or isfinite(value_of(value)):
+        return value
+    what = "not a number" if isnan(value_of(value)) else "infinite"
+    return scope.mistake("BB125", f"this is {what}: it goes beyond binary64, or divides by zero", span)
 
 
 def require_static_whole(value: Value, purpose: str, span: Span, scope: Scope) -> int | None:

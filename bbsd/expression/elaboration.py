@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.aggregates import aggregate
-from bbsd.expression.checks import has_arguments, require_kind, require_static_whole
+from bbsd.expression.checks import has_arguments, require_finite, require_kind, require_static_whole
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
 from bbsd.expression.operations import BY_WORD
@@ -71,7 +71,9 @@ def value(expr: Expr, scope: Scope) -> Value:
     """Elaborate an expression that may be a number, a truth or a list."""
     scope.findings.entered = (scope.path, expr.span)
     scope.graph.spend(EXPRESSION_WORK)
-    return _value(expr, _number_draws(expr, scope))
+    result = _value(expr, _number_draws(expr, scope))
+    # What sensors show at the start, of values that begin at 0, say, may be infinite there alone.
+    return result if scope.starting else require_finite(result, expr.span, scope)
 
 
 def whole(expr: Expr, scope: Scope, purpose: str) -> Node:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import copysign, isfinite, isnan
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
@@ -55,10 +54,4 @@ def reconstruct(node: Node) -> Expr:
 
 
 def _literal(value: float) -> Expr:
-    """Return a literal; a number that cannot be written becomes the division that gives it."""
-    if isinstance(value, bool):
-        return Truth(value, NOWHERE)
-    if isfinite(value):
-        return Number(value, NOWHERE)
-    dividend = 0.0 if isnan(value) else copysign(1.0, value)
-    return Binary("/", Number(dividend, NOWHERE), Number(0.0, NOWHERE), NOWHERE)
+    return Truth(value, NOWHERE) if isinstance(value, bool) else Number(value, NOWHERE)

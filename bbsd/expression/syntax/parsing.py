@@ -7,6 +7,7 @@ import math
 import re
 import warnings
 
+from bbsd.errors import character_name
 from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
 from bbsd.expression.syntax.tree import (
     Binary,
@@ -94,7 +95,8 @@ def parse(text: str) -> Expr:
     if not text.strip():
         raise _error("BB050", "an expression is missing here", 0, 1)
     if match := MEANINGLESS.search(text):
-        raise _error("BB050", f"the character {match[0]!r} has no meaning in an expression", match.start(), 1)
+        what = repr(match[0]) if match[0].isascii() and match[0].isprintable() else character_name(match[0])
+        raise _error("BB050", f"the character {what} has no meaning in an expression", match.start(), 1)
     flat = re.sub(r"[\n\t]", " ", text)
     stripped = flat.lstrip(" ")
     shift = len(flat) - len(stripped)
@@ -204,6 +206,9 @@ class _Builder:
             number = math.inf
         if not math.isfinite(number):
             raise self.refuse(node, "BB051", "this number is too large for binary64")
+        if isinstance(value, int) and int(number) != value:
+            advice = f"write {int(number)} if that is near enough"
+            raise self.refuse(node, "BB125", "a whole number is kept exactly only up to 2 ** 53", advice)
         return Number(number, self.span(node))
 
     def name(self, node: ast.expr, name: str) -> Expr:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import copysign
+
 from bbsd.expression.syntax.tree import (
     Binary,
     Call,
@@ -35,8 +37,9 @@ SIGN, POWER, ATOM = 7, 8, 9
 
 
 def number_text(value: float) -> str:
-    """Return the shortest text of a number; whole numbers have no point."""
-    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+    """Return the shortest text of a number; whole numbers have no point, but for the zero that has a sign."""
+    is_whole = value == int(value) and abs(value) < 1e15 and (value != 0 or copysign(1, value) > 0)
+    return str(int(value)) if is_whole else repr(value)
 
 
 def render(expr: Expr) -> str:

@@ -7,6 +7,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from bbsd.expression import elaboration
+from bbsd.expression.checks import require_finite
 from bbsd.expression.graph import (
     LEAVES,
     Graph,
@@ -148,9 +149,10 @@ def _with_draws(value: Value, key: int, scope: Scope, constant: Nested) -> Value
         texts = constant if isinstance(constant, tuple) else (constant,) * len(value)
         return tuple(_with_draws(item, key, scope, text) for item, text in zip(value, texts, strict=True))
     try:
-        return replace_leaves(
+        drawn = replace_leaves(
             value, scope.graph, lambda node, operands: _draw(node, operands, key, scope.graph)
         )
+        return require_finite(drawn, expressions_in(constant)[0].tree.span, scope)
     except _DrawsWithGenerationError:
         span = expressions_in(constant)[0].tree.span
         return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from yaml import MarkedYAMLError
 
-from bbsd.errors import Diagnosis
+from bbsd.errors import Diagnosis, character_name
 from bbsd.text.core_schema import is_text, meaning
 from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
 from bbsd.text.reading.events import Event, events
@@ -29,8 +29,10 @@ MAX_TEXT = 10_000  # characters
 CHARACTERS_OF_A_NODE = 1000  # a longer text counts as several values
 LONG_KEYS = frozenset({"table"})  # keys whose texts may be as long as the file
 MAX_NUMBER = 100  # characters
+LEADING_ZERO = re.compile("[-+]?0[0-9]")
 TOO_DEEP = f"this is nested more than {MAX_DEPTH} levels deep"
-UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+LINE_SEPARATORS = frozenset("\x85\u2028\u2029")  # new lines for the parser, and for nobody who reads the text
 
 
 class _RefusedError(Exception):
@@ -80,8 +82,7 @@ class _Reading:
 def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
     """Return the mapping that a text consists of, None if it is no mapping, and all its mistakes as YAML."""
     if match := UNPRINTABLE.search(source.text):
-        message = f"the control character U+{ord(match[0]):04X} cannot stand in a spec"
-        return None, [Diagnosis("BB003", message, source.place(match.start()))]
+        return None, [_unprintable(source, match)]
     reading = _Reading(source, events(source.text))
     try:
         return _document(reading), reading.mistakes
@@ -90,6 +91,12 @@ def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
     except MarkedYAMLError as error:
         last = _too_deep(source, error) or explain_syntax_error(source, error)
         return None, [*(mistake for mistake in reading.mistakes if not _same_start(mistake, last)), last]
+
+
+def _unprintable(source: Source, match: re.Match[str]) -> Diagnosis:
+    what = "hidden line break" if match[0] in LINE_SEPARATORS else "control character"
+    message = f"the {what} {character_name(match[0])} cannot stand in a spec"
+    return Diagnosis("BB003", message, source.place(match.start()))
 
 
 def _too_deep(source: Source, error: MarkedYAMLError) -> Diagnosis | None:
@@ -185,7 +192,7 @@ def _shortened(reading: _Reading, node: Scalar, event: Event, longest: int) -> S
 
 def _scalar(reading: _Reading, event: Event, longest: int) -> Scalar:
     text = _cut(reading, event.text, event, longest)
-    data = text if event.style or event.tag else _meaning(reading, event, text)
+    data = text if event.style or event.tag else _meaning(reading, event, text, longest)
     scalar = Scalar(event.start, event.end, event.style, text, data)
     if diagnosis := empty_block_mistake(reading.source, scalar):
         reading.mistakes.append(diagnosis)
@@ -200,9 +207,15 @@ def _cut(reading: _Reading, text: str, event: Event, longest: int) -> str:
     return text[:longest]
 
 
-def _meaning(reading: _Reading, event: Event, text: str) -> str | int | float | bool | None:
+def _meaning(reading: _Reading, event: Event, text: str, longest: int) -> str | int | float | bool | None:
     if len(text) <= MAX_NUMBER:
-        return meaning(text)
+        value = meaning(text)
+        is_table = longest > MAX_TEXT  # told of where tables are read: it needs quotes, whatever it is
+        if LEADING_ZERO.match(text) and not isinstance(value, str) and not is_table:
+            plain = re.sub("0+(?=[0-9])", "", text, count=1)
+            octal = f", or 0o{plain} if octal is meant" if re.fullmatch("[0-7]+", plain) else ""
+            reading.report("BB125", "a number does not begin with a zero", event, f"write {plain}{octal}")
+        return value
     if not is_text(text):
         message = f"a number of {len(text)} characters; the longest may have {MAX_NUMBER}"
         reading.report("BB013", message, event, "put it in quotes, if a text is meant")

@@ -60,8 +60,9 @@ def test_control_and_format_characters_are_written_out() -> None:
     ]
 
 
-def test_no_break_blanks_and_letters_of_all_scripts_are_left() -> None:
-    assert escape("a\xa0Ä速🙂") == "a\xa0Ä速🙂"
+def test_letters_of_all_scripts_are_left_and_blanks_that_are_none_are_shown() -> None:
+    assert escape("a Ä速🙂") == "a Ä速🙂"
+    assert escape("a\xa0b\u2003c\u3000") == r"a\xa0b\u2003c\u3000"
 
 
 def test_a_long_line_is_shown_around_the_place() -> None:

@@ -127,7 +127,9 @@ def test_finite_returns_pass():
 
 
 def test_what_is_not_finite_but_not_earned_is_no_mistake():
-    text = TERM.format(bad="x").replace("state: {x: robot}", "state: {x: robot, y: 1 / robot}")
+    text = TERM.format(bad="x").replace(
+        "state: {x: robot}", "world: {zero: 'uniform(0, 0)'}, state: {x: robot, y: 1 / zero}"
+    )
     problem = problem_of(text)
     assert returns_of(problem, agents_of([given_architecture(problem)]), keys(1, 0, 1), 1).tolist() == [[6.0]]
 

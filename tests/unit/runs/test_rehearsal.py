@@ -28,5 +28,5 @@ def test_every_kind_of_run_can_be_rehearsed(options):
 
 
 def test_a_reward_that_is_not_finite_is_left_for_the_run_to_find():
-    problem = problem_of(RICH.replace("reward:", "reward:\n  odd: 1 / 0", 1))
+    problem = problem_of(RICH.replace("reward:", "reward:\n  odd: 1 / (x - x)", 1))
     rehearse(problem, settings_of(problem.meaning))

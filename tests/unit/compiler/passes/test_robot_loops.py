@@ -163,11 +163,11 @@ CASES = {
     },
     "values that are not finite": {
         "sensors": {
-            "eyes": "list(1 / n, log(x), sqrt(robot - 1))",
+            "eyes": "list(1 / n, log(x), sqrt(robot - 1 + n - n))",
             "tilt": "1 / (wind - wind)",
             "walls": "list(1 / (wind - wind), 2)",
         },
-        "dynamics": {"y": "1 / (robot - 2)", "wind": "wind / 0"},
+        "dynamics": {"y": "1 / (robot - 2 + n - n)", "wind": "wind / 0"},
     },
     "a reward that no robot has a part in": {"reward": {"wind": "wind"}},
 }

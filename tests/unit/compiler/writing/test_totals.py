@@ -111,7 +111,7 @@ def test_steps_in_which_a_value_is_not_finite_are_counted_by_its_place():
       world: {w: 0}
       state: {x: 1}
       dynamics: {w: "1 / (step - 2)"}
-      sensors: {s: "list(log(robot), sqrt(x - step))"}
+      sensors: {s: "list(log(robot + x - x), sqrt(x - step))"}
       ends: step == 3
     behaviors: {idle: {actions: {a: {x: x}}}}
     reward: {each: 1}

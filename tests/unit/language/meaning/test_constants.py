@@ -1,5 +1,3 @@
-import math
-
 import pytest
 
 from tests.unit.language.specs import codes, meaning_of
@@ -73,5 +71,6 @@ def test_a_mistake_in_a_table_is_told_at_its_item() -> None:
     assert (diagnosis.place.line, diagnosis.place.column) == (3, 19)
 
 
-def test_a_constant_need_not_be_finite() -> None:
-    assert constants("{a: 1 / 0, b: -a}").vector(1) == [math.inf, -math.inf]
+@pytest.mark.parametrize("text", ["{a: 1 / 0, b: -a}", "{a: [1, 0 / 0]}", "{a: 'exp(uniform(800, 900))'}"])
+def test_a_constant_is_finite_and_the_first_that_is_not_is_told(text: str) -> None:
+    assert codes(f"constants: {text}") == ["BB125"]

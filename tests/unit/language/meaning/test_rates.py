@@ -28,7 +28,7 @@ def test_rates_are_evaluated_for_each_generation_and_episode() -> None:
 @pytest.mark.parametrize(
     ("design", "code"),
     [("{learning: {rate: 1.5}}", "BB043"), ("{learning: {rate: 2 - episode}}", "BB043"),
-     ("{learning: {rate: 0 / 0}}", "BB043"),
+     ("{learning: {rate: 0 / 0}}", "BB125"),
      ("{learning: {rate: later}}", "BB066"), ("{learning: {rate: generation}}", "BB052"),
      ("{coevolution: {soft_mutation: episode}}", "BB052"), ("{coevolution: {hard_mutation: height}}", "BB052"),
      ("{coevolution: {hard_mutation: chance(0.5)}}", "BB058"), ("{coevolution: {hard_mutation: 0.9}}", "BB043")],

@@ -1,7 +1,7 @@
 import pytest
 
 from bbsd.text import Document, Source, read
-from bbsd.text.reading.composition import MAX_DEPTH, MAX_NODES
+from bbsd.text.reading.composition import MAX_DEPTH, MAX_NODES, compose
 
 
 def document(text: str) -> Document:
@@ -131,3 +131,29 @@ def test_mistakes_before_a_syntax_error_are_kept_in_order() -> None:
 
 def test_a_syntax_error_replaces_a_mistake_at_the_same_place() -> None:
     assert codes("a: *b + 1\nc: 2\n") == ["BB004"]
+
+
+@pytest.mark.parametrize("break_", ["\x85", "\u2028", "\u2029"])
+def test_a_line_break_that_is_none_for_readers_is_refused_by_name(break_: str) -> None:
+    (diagnosis,) = compose(Source("s", f"a: 1  # a comment{break_}hidden: 2\n"))[1]
+    assert (diagnosis.code, diagnosis.place.column) == ("BB003", 18)
+    assert f"hidden line break U+{ord(break_):04X}" in diagnosis.message
+
+
+@pytest.mark.parametrize(
+    ("text", "advice"),
+    [
+        ("010", "write 10, or 0o10 if octal is meant"),
+        ("-09", "write -9"),
+        ("00.5", "write 0.5"),
+        ("+0012", "write +12"),
+    ],
+)
+def test_a_number_with_a_zero_in_front_is_refused(text: str, advice: str) -> None:
+    (diagnosis,) = compose(Source("s", f"a: {text}\n"))[1]
+    assert (diagnosis.code, diagnosis.advice) == ("BB125", advice)
+
+
+@pytest.mark.parametrize("text", ["0", "0.5", "-0.5", "0o17", "0x1f", "1e05", '"010"', "010-020", "0 + 1"])
+def test_other_zeros_are_left(text: str) -> None:
+    assert compose(Source("s", f"a: {text}\n"))[1] == []
