@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from bbsd.api.designing import design, price
     from bbsd.api.evaluating import evaluate
     from bbsd.api.explaining import explain
+    from bbsd.api.exporting import Export, export
     from bbsd.api.paging import Page, page
     from bbsd.api.reasons import why
     from bbsd.api.results import (
@@ -41,6 +42,7 @@ HOMES = {
     "bbsd.api.designing": ("design", "price"),
     "bbsd.api.evaluating": ("evaluate",),
     "bbsd.api.explaining": ("explain",),
+    "bbsd.api.exporting": ("Export", "export"),
     "bbsd.api.paging": ("Page", "page"),
     "bbsd.api.reasons": ("why",),
     "bbsd.api.results": (
@@ -65,6 +67,7 @@ __all__ = [
     "AnySpec",
     "BestSoFar",
     "Designed",
+    "Export",
     "Interrupted",
     "NoBudget",
     "NothingToDesign",
@@ -77,6 +80,7 @@ __all__ = [
     "design",
     "evaluate",
     "explain",
+    "export",
     "faults",
     "load",
     "page",

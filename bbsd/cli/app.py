@@ -13,6 +13,7 @@ from bbsd.cli.config import config
 from bbsd.cli.design import design
 from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
+from bbsd.cli.export import export
 from bbsd.cli.fmt import fmt
 from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
@@ -47,6 +48,7 @@ app.command()(worth)
 app.command()(compare)
 app.command()(report)
 app.command()(watch)
+app.command()(export)
 app.command()(check)
 app.command()(fmt)
 app.command()(config)

@@ -107,6 +107,11 @@ def _layers(explanation: Explanation, *, all_tables: bool) -> list[str]:
     return [*lines, *(wrapped(ASKED) if has_shares else [])]
 
 
+def layer_sentences(layer: LayerInWords) -> list[str]:
+    """Return what a layer does, in sentences: when it is excited, its rules, and where higher layers overrule it."""
+    return [*_excited(layer), *_rules(layer), *_overruled(layer)]
+
+
 def _n_inputs(layer: LayerInWords) -> int:
     return len({condition.input for rule in layer.rules for condition in rule.when})
 

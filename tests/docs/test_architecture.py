@@ -31,7 +31,7 @@ def test_the_floors_are_in_the_order_that_is_checked():
         for contract in settings["tool"]["importlinter"]["contracts"]
         if "layers" in contract
     )
-    order = {name.strip(): floor for floor, names in enumerate(layers) for name in names.split("|")}
+    order = {name.strip(" ()"): floor for floor, names in enumerate(layers) for name in names.split("|")}
     heights = [order[f"bbsd.{name}"] for name in FLOORS]
     assert heights == sorted(heights)
     assert set(order) == {f"bbsd.{name}" for name in FLOORS}

@@ -1,0 +1,89 @@
+"""Write a design in another language, and verify through the real target what was written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from bbsd.api.specs import AnySpec, load
+from bbsd.architecture import architecture_of
+from bbsd.errors import UsageError, did_you_mean
+from bbsd.exports.exported import Options, exported_design
+from bbsd.exports.targets import TARGETS
+from bbsd.exports.verification.comparing import Verified
+from bbsd.exports.verification.comparing import verify as verify_files
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bbsd.exports.exported import Files
+
+
+class NoSuchTarget(UsageError):
+    """A target that designs cannot be written for."""
+
+    advice = f"the targets are {', '.join(TARGETS)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """A design in another language: the texts of files by name, the main one first, and what came of verifying them."""
+
+    design: str
+    digest: str
+    target: str
+    files: Files
+    verified: tuple[Verified, ...]
+    """What came of each tool that ran the files; empty where that was not asked for, or nothing runs them."""
+
+    def __repr__(self) -> str:
+        return f"<Export of {self.design}: {', '.join(self.files)}>"
+
+    @property
+    def text(self) -> str:
+        """The text of the main file."""
+        return next(iter(self.files.values()))
+
+    @property
+    def is_verified(self) -> bool:
+        """Whether every tool that is needed ran it, and all answers of all tools that ran were equal."""
+        needed = [each for each in self.verified if each.needed]
+        return bool(needed) and all(
+            each.is_equal or (each.missing and not each.needed) for each in self.verified
+        )
+
+
+def export(
+    spec: AnySpec,
+    to: str,
+    *,
+    verify: bool = False,
+    sensing: bool = False,
+    leaves: Literal["script", "custom"] = "script",
+    seed: int = 0,
+    overrides: Sequence[str] = (),
+) -> Export:
+    """Write a design in another language.
+
+    Args:
+        spec: A design: a spec without holes, or the folder of a run.
+        to: The target, one of `bbsd.exports.targets.TARGETS`.
+        verify: Run what was written through the target, in all joint cells or a sample of many.
+        sensing: Also write sensors, excitation and assignments, where the target can have them.
+        leaves: How the leaves of a tree are written.
+        seed: Seed of the draws in constants.
+        overrides: Values that replace those of the spec.
+
+    Raises:
+        SpecError: with all mistakes of the spec.
+        HolesLeft: the spec has holes.
+        NoSuchTarget: there is no such target.
+    """
+    if to not in TARGETS:
+        raise NoSuchTarget(f"{to!r} is no target{did_you_mean(to, TARGETS)}")
+    loaded = load(spec, seed=seed, overrides=overrides)
+    exported = exported_design(loaded.meaning, architecture_of(loaded.meaning))
+    target = TARGETS[to]
+    files = target.write(exported, Options(sensing=sensing, leaves=leaves))
+    verified = verify_files(exported, files, target.runners) if verify else []
+    return Export(exported.controller.name, exported.controller.digest, to, files, tuple(verified))

@@ -1,0 +1,69 @@
+"""`bbsd export`."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+import bbsd
+from bbsd.cli.options import DesignFile, Overrides, Seed
+from bbsd.cli.output import require_writable_file, say, show
+from bbsd.errors import escape
+from bbsd.files import write_text_whole
+
+if TYPE_CHECKING:
+    from bbsd.api.exporting import Export
+
+NOT_VERIFIED = 1
+"""The exit code of --verify where what was written was not verified, or differs."""
+
+
+class TargetName(StrEnum):
+    """What a design can be written for."""
+
+    PYTHON = "python"
+
+
+def export(
+    design: DesignFile,
+    to: Annotated[TargetName, typer.Option("--to", help="What to write the design for.", show_default=False)],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", metavar="FILE", help="Write it here.", show_default="print it"),
+    ] = None,
+    verify: Annotated[
+        bool,
+        typer.Option(
+            "--verify",
+            help="Run it through the target in all situations that the behaviors tell apart; exit with code 1 if it "
+            "differs, or if the target is not on this machine.",
+        ),
+    ] = False,
+    seed: Seed = 0,
+    overrides: Overrides = None,
+) -> None:
+    """Write a design in another language, to be used in a program of your own.
+
+    The file decides from the cells of the behaviors' inputs: your program tells it which cells its sensors are in, and
+    it answers with the action of the behavior that controls. It needs nothing else.
+    """
+    if out is not None:
+        require_writable_file(out)
+    exported = bbsd.export(design, to.value, verify=verify, seed=seed, overrides=overrides or ())
+    _write(exported, out)
+    if verify:
+        from bbsd.report.exports import verified_lines
+
+        for line in verified_lines(exported):
+            say(line)
+        if not exported.is_verified:
+            raise typer.Exit(NOT_VERIFIED)
+
+
+def _write(exported: "Export", out: Path | None) -> None:
+    if out is None:
+        show(exported.text)
+        return
+    write_text_whole(out, exported.text, through_links=True)
+    say(f"wrote {escape(str(out))}")

@@ -1,0 +1,1 @@
+"""Designs in other languages, written from one form of them, and verified through the real target."""

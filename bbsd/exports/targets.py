@@ -1,0 +1,35 @@
+"""The targets of `bbsd export`: a line for each says what it is, what writes it, and through what it is verified."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+from bbsd.exports import python
+from bbsd.exports.verification.interpreters import run_cpython, run_micropython
+from bbsd.exports.verification.tools import Runner
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from bbsd.exports.exported import Exported, Files, Options
+
+
+class Target(NamedTuple):
+    """Another language: what a file of it is, who writes it, and what runs it; nothing where it cannot be verified."""
+
+    title: str
+    write: Callable[[Exported, Options], Files]
+    runners: tuple[Runner, ...]
+
+
+TARGETS: Mapping[str, Target] = MappingProxyType(
+    {
+        "python": Target(
+            "a Python module without dependencies, also for MicroPython",
+            python.write,
+            (Runner("python", run_cpython), Runner("micropython", run_micropython, needed=False)),
+        ),
+    }
+)
+"""By the names that `--to` takes."""

@@ -1,0 +1,163 @@
+"""Whether what was exported decides as the design does: in all joint cells, or in a sample of a large joint space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bbsd.architecture import joint_space
+from bbsd.architecture.deciding import asked_at, policy_at
+from bbsd.exports.verification.tools import ToolFailed, ToolMissing
+from bbsd.kernel.streams import name_word
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from bbsd.architecture.controller import Controller, Layer
+    from bbsd.exports.exported import Exported, Files
+    from bbsd.exports.verification.tools import Runner
+
+    Cells = NDArray[np.int64]
+
+MOST_CELLS = 1_000_000
+"""Joint cells that are all compared; of a larger space, each behavior's table and a sample are."""
+SAMPLE = 200_000
+"""Joint cells of the sample."""
+TRIES = 30
+"""Draws after which a cell of a table in which a higher layer always acted counts as covered."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A joint cell in which a target decides otherwise: the label of each dimension's cell, and both decisions."""
+
+    cells: tuple[tuple[str, str], ...]
+    design: str
+    target: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What came of running an export by one tool.
+
+    `missing`: it was not there; `failure`: what it said instead of answering. `is_proof`: all joint cells were
+    compared, else all cells of all tables, and a sample of the joint cells.
+    """
+
+    tool: str
+    needed: bool
+    missing: bool
+    failure: str
+    compared: int
+    equal: int
+    is_proof: bool
+    joint_size: int
+    first_difference: Difference | None
+
+    @property
+    def is_equal(self) -> bool:
+        """Whether it ran and answered all as the design does."""
+        return not self.missing and not self.failure and self.equal == self.compared
+
+
+def verify(exported: Exported, files: Files, runners: Sequence[Runner]) -> list[Verified]:
+    """Run what was exported by each tool, and compare its answers with the design's."""
+    cells = cells_to_compare(exported)
+    space = joint_space(exported.meaning)
+    expected = policy_at(space, exported.architecture, cells)
+    return [_verified(exported, files, runner, cells, expected) for runner in runners]
+
+
+def cells_to_compare(exported: Exported) -> Cells:
+    """Return all joint cells (n, n_dimensions); of a large space, those of `_sampled_cells`."""
+    sizes, n = exported.controller.sizes, exported.controller.joint_size
+    if n <= MOST_CELLS:
+        return np.indices(sizes).reshape(len(sizes), n).T.copy()
+    return _sampled_cells(exported)
+
+
+def _sampled_cells(exported: Exported) -> Cells:
+    """Return a sample of the joint cells, and for each cell of each table one in which it decides, if that is found.
+
+    The draws depend on the design alone.
+    """
+    controller, space = exported.controller, joint_space(exported.meaning)
+    rng = np.random.default_rng(name_word(f"verify {controller.digest}"))
+    parts = [_drawn(controller, SAMPLE, rng)]
+    behaviors = [*exported.meaning.spec.behaviors]
+    for layer in controller.layers:
+        part = _in_layer(layer, _drawn(controller, len(layer.table), rng))
+        for _ in range(TRIES):
+            asked = dict(asked_at(space, exported.architecture, part))[behaviors.index(layer.behavior)]
+            if asked.all():
+                break
+            again = _in_layer(layer, _drawn(controller, len(layer.table), rng))
+            part = np.where(asked[:, None], part, again)
+        parts.append(part)
+    return np.concatenate(parts)
+
+
+def _drawn(controller: Controller, n: int, rng: np.random.Generator) -> Cells:
+    return rng.integers(0, np.array(controller.sizes, np.int64), (n, len(controller.sizes)))
+
+
+def _in_layer(layer: Layer, cells: Cells) -> Cells:
+    """Return joint cells changed so that a layer is excited, and the k-th has the k-th cell of its table."""
+    own = np.unravel_index(np.arange(len(cells)), layer.sizes) if layer.sizes else ()
+    for axis, cell in zip(layer.axes, own, strict=True):
+        cells[:, axis] = cell
+    if layer.excitement is not None and layer.excitement not in layer.axes:
+        cells[:, layer.excitement] = layer.excited_at
+    return cells
+
+
+def _verified(exported: Exported, files: Files, runner: Runner, cells: Cells, expected: Cells) -> Verified:
+    joint_size = exported.controller.joint_size
+    missing, failure, answers = False, "", expected[:0]
+    try:
+        answers = runner.run(exported, files, cells)
+    except ToolMissing:
+        missing = True
+    except ToolFailed as error:
+        failure = str(error)
+    ran = not missing and not failure
+    wrong = np.flatnonzero(answers != expected) if ran else np.zeros(0, np.int64)
+    return Verified(
+        tool=runner.tool,
+        needed=runner.needed,
+        missing=missing,
+        failure=failure,
+        compared=len(cells),
+        equal=len(cells) - len(wrong) if ran else 0,
+        is_proof=joint_size <= MOST_CELLS,
+        joint_size=joint_size,
+        first_difference=_difference(exported.controller, cells, expected, answers, int(wrong[0]))
+        if len(wrong)
+        else None,
+    )
+
+
+def _difference(
+    controller: Controller, cells: Cells, expected: Cells, answers: Cells, row: int
+) -> Difference:
+    labels = tuple(
+        (dimension.name, dimension.cells[int(cell)])
+        for dimension, cell in zip(controller.dimensions, cells[row], strict=True)
+    )
+    return Difference(
+        labels, action_text(controller, int(expected[row])), action_text(controller, int(answers[row]))
+    )
+
+
+def action_text(controller: Controller, number: int) -> str:
+    """Return an action and its behavior by number; `nobody` for 0, and a number that no action has as such."""
+    if number == 0:
+        return "nobody"
+    if number > len(controller.actions):
+        return f"number {number}, which no action has"
+    action = controller.actions[number - 1]
+    return f"{action.name} of {action.behavior}"

@@ -1,0 +1,33 @@
+"""What came of verifying an export, in sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.errors import escape
+
+if TYPE_CHECKING:
+    from bbsd.api.exporting import Export
+    from bbsd.exports.verification.comparing import Verified
+
+
+def verified_lines(export: Export) -> list[str]:
+    """Return a line for each tool that ran an export, and one for a cell in which it differs."""
+    if not export.verified:
+        return [f"nothing here runs {export.target}: not verified"]
+    return [escape(line) for verified in export.verified for line in _lines(verified)]
+
+
+def _lines(verified: Verified) -> list[str]:
+    if verified.missing:
+        return [f"{verified.tool} was not found: not verified there"]
+    if verified.failure:
+        return [f"{verified.tool}: not verified: {verified.failure}"]
+    counts = f"{verified.tool}: {verified.equal:,} of {verified.compared:,} cells equal"
+    proof = "" if verified.is_proof else f" (tested, not proven: there are about {verified.joint_size:.0e})"
+    lines = [counts + proof]
+    if verified.first_difference is not None:
+        cells = ", ".join(f"{name} {label}" for name, label in verified.first_difference.cells)
+        design, target = verified.first_difference.design, verified.first_difference.target
+        lines.append(f"  where {cells}: the design decides {design}, {verified.tool} {target}")
+    return lines
