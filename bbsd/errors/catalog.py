@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors.expression_kinds import EXPRESSION_KINDS
 from bbsd.errors.kind import Severity
+from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
 
@@ -26,7 +27,9 @@ def in_order_of_codes(kinds: Iterable[DiagnosisKind]) -> dict[str, DiagnosisKind
     return {kind.code: kind for kind in sorted(kinds, key=lambda kind: int(kind.code.removeprefix(PREFIX)))}
 
 
-KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes((*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS))
+KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
+    (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS)
+)
 
 
 def describe(code: str) -> DiagnosisKind:

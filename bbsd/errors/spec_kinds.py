@@ -67,7 +67,7 @@ SPEC_KINDS = (
         code="BB025",
         title="a name for two things",
         explanation=(
-            "Constants, world, state, definitions and sensors share their names, since an expression "
+            "Constants, world, state, definitions, sensors and observations share their names, since an expression "
             "could not tell them apart."
         ),
         example="constants:\n  speed: 5",

@@ -32,6 +32,8 @@ def enumerate_starts(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]
     Raises NotEnumerable where something is drawn after the start, from a continuous range, or from too many values.
     """
     graph, episode = problem.meaning.graph, problem.meaning.episode
+    if episode.outside:
+        raise NotEnumerable("the world is stepped in Python, and what it draws is not known")
     later = [*episode.after.values(), *(node for nodes in episode.reward.values() for node in nodes)]
     if _draws(later):
         raise NotEnumerable("values are drawn during the episode, not only at its start")

@@ -90,7 +90,7 @@ class Node:
         return self.data
 
 
-LEAVES = frozenset({"slot", "constant", "step", "start", "draw", "gather", "choice"})
+LEAVES = frozenset({"slot", "constant", "step", "start", "draw", "gather", "choice", "outside"})
 """Operations whose values come from outside the graph; draws and gathers also have operands."""
 
 
@@ -307,7 +307,7 @@ def _is_whole(
         case "literal":
             value = value_of(node)
             return not isinstance(value, float) or not isfinite(value) or value.is_integer()
-        case "slot":
+        case "slot" | "outside":
             return whole_slots.get(node.slot, False)
         case "constant":
             return whole_constant(node.index)

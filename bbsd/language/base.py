@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeVar, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
 
 FREE = "x-"
 """The beginning of keys that are kept and ignored."""
@@ -33,6 +36,16 @@ class Part(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
+    @classmethod
+    def fields_by_key(cls) -> dict[str, FieldInfo]:
+        """Return the fields by the keys that a spec has for them."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
+
+    def values_by_key(self) -> dict[str, Any]:
+        """Return the values by the keys that a spec has for them."""
+        fields = type(self).model_fields
+        return {field.alias or name: getattr(self, name) for name, field in fields.items()}
+
     @model_validator(mode="before")
     @classmethod
     def _without_free_keys(cls, data: Any) -> Any:  # noqa: ANN401 - whatever the file holds
@@ -43,7 +56,7 @@ class Part(BaseModel):
 
     @classmethod
     def _holds_block(cls, key: str) -> bool:
-        field = cls.model_fields.get(key)
+        field = cls.fields_by_key().get(key)
         return field is not None and not field.is_required() and _is_block(field.annotation)
 
 

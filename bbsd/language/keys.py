@@ -19,14 +19,14 @@ def fields_at(path: Path) -> Mapping[str, FieldInfo] | None:
     """Return the keys that may stand below a path; None where they are not the language's own."""
     match path:
         case ("behaviors", _):
-            return Behavior.model_fields
+            return Behavior.fields_by_key()
         case ("behaviors", _, "rules", int()):
-            return {**When.model_fields, **Otherwise.model_fields}
+            return {**When.fields_by_key(), **Otherwise.fields_by_key()}
     part: type[Part] | None = Spec
     for segment in path:
-        fields = part.model_fields if part else {}
+        fields = part.fields_by_key() if part else {}
         part = next(_parts(fields[str(segment)].annotation), None) if segment in fields else None
-    return part.model_fields if part else None
+    return part.fields_by_key() if part else None
 
 
 def field_at(path: Path) -> FieldInfo | None:
@@ -44,11 +44,11 @@ def blocks_with(key: str) -> list[str]:
     names = []
     while blocks:
         name, part = blocks.pop(0)
-        names += [name] if key in part.model_fields else []
+        names += [name] if key in part.fields_by_key() else []
         prefix = "" if part is Spec else f"{name}."
         blocks += [
             (f"{prefix}{inner_key}", inner)
-            for inner_key, field in part.model_fields.items()
+            for inner_key, field in part.fields_by_key().items()
             for inner in _parts(field.annotation)
         ]
     return names

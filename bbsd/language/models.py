@@ -20,6 +20,17 @@ from bbsd.language.field_types import (
     kind_of,
     shape,
 )
+from bbsd.language.outside import (
+    OUTSIDE_KINDS,
+    ActionText,
+    ArgumentsText,
+    GymnasiumText,
+    ObservationText,
+    Outside,
+    PettingZooText,
+    PythonText,
+    read_fields,
+)
 from bbsd.language.view import View  # noqa: TC001 - pydantic reads annotations
 
 OPEN = "open"
@@ -36,8 +47,27 @@ PartitionText = Annotated[
 
 
 class Environment(Part):
-    """The world, the robots in it, and what they sense."""
+    """The world, the robots in it, and what they sense; or, by one of the first three keys, somebody else's world."""
 
+    gymnasium: GymnasiumText | None = Field(
+        None, description="The id of a Gymnasium environment that is the world, such as CartPole-v1."
+    )
+    pettingzoo: PettingZooText | None = Field(
+        None, description="A PettingZoo environment that is the world; its agents are the robots."
+    )
+    python: PythonText | None = Field(
+        None, description="A class of one's own that is the world, as module:Class."
+    )
+    arguments: ArgumentsText = Field(
+        {}, alias="with", description="Keyword arguments with which that environment is made: plain data."
+    )
+    observation: ObservationText | None = Field(
+        None, description="Names for what that environment shows: a list, or sizes or paths by name."
+    )
+    action: ActionText | None = Field(
+        None,
+        description="State whose value that environment is told at each step: a name, or a list of names.",
+    )
     robots: Whole = Field(1, ge=1, le=64, description="Robots that carry the architecture.")
     steps: Whole = Field(ge=1, le=10_000_000, description="Steps of an episode at most.")
     world: Entries[ValueNameText, ExpressionText] = Field(
@@ -58,6 +88,18 @@ class Environment(Part):
     ends: ExpressionText | None = Field(
         None, description="The episode is over after a step in which this holds."
     )
+
+    @property
+    def outside(self) -> Outside | None:
+        """The environment in Python that is the world; None where the world is the spec's own."""
+        targets = {kind: getattr(self, kind) for kind in OUTSIDE_KINDS}
+        actions = [self.action] if isinstance(self.action, str) else self.action or []
+        for kind, target in targets.items():
+            if target is not None:
+                return Outside(
+                    kind, target, self.arguments, read_fields(self.observation or []), tuple(actions)
+                )
+        return None
 
 
 def _decision(value: object) -> str:

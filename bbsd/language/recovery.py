@@ -6,6 +6,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, cast
 
+from bbsd.language.outside import UNUSED
 from bbsd.language.validation import child, names_lost, path_of, validate
 
 if TYPE_CHECKING:
@@ -36,6 +37,12 @@ DELETE: Final = _Mark()
 HOPELESS: Final = _Mark()
 WRONG_KEYS: Final = ("extra_forbidden", "bad_name")
 
+STAND_IN_TARGETS: Final = {
+    "gymnasium": "Unknown-v0",
+    "pettingzoo": "unknown.unknown_v0",
+    "python": "unknown:Unknown",
+}
+
 STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
     ("bbsd",): 1,
     ("name",): "unnamed",
@@ -46,6 +53,11 @@ STAND_INS: dict[tuple[str, ...], Data | _Mark] = {
     ("environment", "steps"): 1,
     **{("environment", block): HOPELESS for block in ("world", "state", "definitions", "sensors")},
     **{("environment", block, ANY): UNKNOWN for block in ("world", "state", "definitions", "sensors")},
+    **{("environment", kind): target for kind, target in STAND_IN_TARGETS.items()},
+    ("environment", "with"): DELETE,
+    ("environment", "observation"): HOPELESS,
+    ("environment", "observation", ANY): UNUSED,  # in a list a number without a name, in a mapping a path
+    ("environment", "action"): HOPELESS,
     ("behaviors",): {UNKNOWN: {"actions": {UNKNOWN: {}}}},
     ("behaviors", ANY): {"actions": {UNKNOWN: {}}},
     ("behaviors", ANY, "excited"): DELETE,
@@ -109,6 +121,8 @@ def _dependent(path: Path) -> set[str]:
     match path:
         case ("environment", "robots"):
             return {"BB057", "BB059"}
+        case ("environment", "observation", *_):
+            return {"BB109"}
         case ("behaviors",):
             return {"BB042"}
         case ("behaviors", _, "inputs"):
@@ -125,7 +139,7 @@ def _mend(data: Data, path: Path, error: str) -> None:
     target, value = _replacement(path)
     if value is HOPELESS and error not in WRONG_KEYS:
         raise _HopelessError
-    if error in WRONG_KEYS and path[2:3] != ("rules",):
+    if error in WRONG_KEYS and path[2:3] != ("rules",) and isinstance(path[-1], str):
         target, value = path, DELETE
     parent = _value_at(data, target[:-1])
     if isinstance(parent, dict) and isinstance(value, _Mark):

@@ -108,7 +108,7 @@ def _uses(error: ErrorDetails, names: frozenset[str]) -> bool:
 def _mistake(error: ErrorDetails, data: Data) -> Mistake:
     path = path_of(error, data)
     match error["type"]:
-        case "expression":
+        case "expression" | "mistake":
             return cast("Mistake", error["ctx"]["mistake"])
         case "bad_name":
             return Mistake("BB024", error["msg"], KEY)
@@ -170,6 +170,9 @@ NEEDED_BY_KEY = {
     "inputs": "a list of sensors or a mapping of partitions",
     "rules": "a list of rules",
     "structure": "a list of behaviors",
+    "with": "a mapping of arguments",
+    "observation": "a list of names, or a mapping of names to sizes or paths",
+    "action": "the name of a state, or a list of them",
     "culture": "a mapping or none",
     "budget": "a whole number of episodes from 5 000 on, or auto",
     "record": "a whole number from 1 on, a list of them, or none",

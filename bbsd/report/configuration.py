@@ -37,7 +37,7 @@ def configuration_text(loaded: Loaded) -> str:
 def _with_defaults(part: Part, data: Data) -> dict[str, Data]:
     """Return the data of a part, followed by its defaults for keys that are not written, unless they are empty."""
     written = data if isinstance(data, dict) else {}
-    fields = {key: _value(getattr(part, key), written.get(key)) for key in type(part).model_fields}
+    fields = {key: _value(value, written.get(key)) for key, value in part.values_by_key().items()}
     others = {key: value for key, value in written.items() if key not in fields}
     ordered = {key: fields.get(key, others.get(key)) for key in (*written, *fields)}
     return {key: value for key, value in ordered.items() if key in written or value not in (None, "", {}, [])}

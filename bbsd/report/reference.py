@@ -15,7 +15,7 @@ from pydantic_core import PydanticUndefined
 
 from bbsd.errors import KINDS
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, RESERVED
-from bbsd.language import design, models, view
+from bbsd.language import design, models, outside, view
 from bbsd.language.base import Part
 from bbsd.language.field_types import Expression
 
@@ -95,7 +95,7 @@ def _block_text(title: str, parts: Iterable[type[Part]]) -> str:
     for part in parts:
         rows = (
             (f"`{name}`", _kind(field.annotation) + _bounds(field), _default(field), field.description or "")
-            for name, field in part.model_fields.items()
+            for name, field in part.fields_by_key().items()
         )
         table = _table(("key", "value", "default", "meaning"), (map(_cell, row) for row in rows))
         sections.append(f"{getdoc(part)}\n\n{table}")
@@ -117,6 +117,8 @@ def _kind(annotation: Any) -> str:  # noqa: ANN401 - a type, of any kind
     origin, arguments = get_origin(annotation), get_args(annotation)
     if annotation == models.PartitionText:
         return "partition"
+    if annotation == outside.ArgumentText:
+        return "plain data"
     if origin is Annotated:
         return _kind(arguments[0])
     if origin is Literal:

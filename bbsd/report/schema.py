@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get
 from annotated_types import Ge, Le, MaxLen, MinLen
 
 from bbsd.expression.vocabulary import RESERVED, UNREADABLE
-from bbsd.language import design, field_types, models, view
+from bbsd.language import design, field_types, models, outside, view
 from bbsd.language.base import FREE, Part
 from bbsd.language.field_types import Expression
 from bbsd.text.core_schema import meaning
@@ -101,7 +101,7 @@ def _word_or_name(*words: str) -> Schema:
 
 def _part(part: type[Part]) -> Schema:
     """Return the schema of a block with the keys of a model."""
-    fields = part.model_fields
+    fields = part.fields_by_key()
     return {
         "title": part.__name__.lower(),
         "description": " ".join((part.__doc__ or "").split()),
@@ -223,10 +223,29 @@ RECORD_SCHEMA: Schema = {
         {"enum": ["none"]},
     ]
 }
+ARGUMENTS_SCHEMA: Schema = {"type": ["object", "null"], "additionalProperties": True}
+OBSERVED_SCHEMA: Schema = {
+    "anyOf": [
+        {"type": "array", "items": {"anyOf": [_ref("value_name"), {"enum": [outside.UNUSED]}]}},
+        {
+            **_mapping(field_types.ValueNameText, str),
+            "additionalProperties": {"anyOf": [{"type": "integer", "minimum": 1}, {"type": "string"}]},
+        },
+    ]
+}
+
+
+def _target_schema(kind: outside.OutsideKind) -> Schema:
+    return {"type": "string", "pattern": f"^{outside.TARGETS[kind].pattern}$"}
+
+
 KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
     (models.When, "when"): {**_mapping(str, str), "additionalProperties": CELLS_SCHEMA},
     (models.When, "do"): DECISION_SCHEMA,
     (models.Otherwise, "otherwise"): DECISION_SCHEMA,
+    **{(models.Environment, kind): _target_schema(kind) for kind in outside.OUTSIDE_KINDS},
+    (models.Environment, "with"): ARGUMENTS_SCHEMA,
+    (models.Environment, "observation"): OBSERVED_SCHEMA,
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
     (design.Design, "budget"): BUDGET_SCHEMA,
     (design.Design, "record"): RECORD_SCHEMA,

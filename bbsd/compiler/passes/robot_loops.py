@@ -29,10 +29,11 @@ MOST_ROBOTS_WRITTEN_OUT = 3
 def loop_over_robots(meaning: Meaning, most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> Meaning:
     """Return the same meaning with one node for what every robot computes, where there are many robots.
 
-    In it slots, choices and reward of robot 0 stand for those of all robots.
+    In it slots, choices and reward of robot 0 stand for those of all robots. What an environment in Python gives is a
+    value of its own for each robot, so such a meaning stays as it is.
     """
     robots = meaning.spec.environment.robots
-    if robots <= most_written_out:
+    if robots <= most_written_out or meaning.episode.outside:
         return meaning
     try:
         return replace(meaning, episode=_loop_over(meaning.episode, robots))

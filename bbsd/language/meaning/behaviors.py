@@ -13,6 +13,7 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.expression.syntax.tree import Name, Span
 from bbsd.language.field_types import Expression
+from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, what_sets
 from bbsd.language.meaning.partitions import (
     MAX_CELLS,
     TRUTH_CELLS,
@@ -139,7 +140,10 @@ def _action(
     for target, expression in sets.items():
         target_path = (*path, target)
         if target not in names.spec.environment.state:
-            if target not in names.unusable:
+            if target in names_outside(names.spec.environment) and target not in names.unusable:
+                message = f"{what_sets(target)}, and an action cannot set it"
+                names.findings.report(target_path, "BB107", message, KEY, ONLY_OUTSIDE)
+            elif target not in names.unusable:
                 message, advice = _not_state(target, names), "actions set a robot's own state"
                 names.findings.report(target_path, "BB033", message, KEY, advice)
             continue
@@ -173,7 +177,7 @@ def _not_listed(name: str, names: Names) -> tuple[str, Span, str]:
         kind = "a definition" if name in names.definitions else "a constant"
         advice = "make a sensor of it, or write inputs as a mapping: a name, then the partition"
         return f"{name} is {kind}; inputs lists sensors, and truths of the robot's state", WHOLE, advice
-    candidates = [*environment.sensors, *environment.state]
+    candidates = [*environment.sensors, *environment.state, *names_outside(environment)]
     advice = "inputs lists sensors, and truths of the state; other partitions are a mapping: name, then what it cuts"
     return f'"{name}" is neither sensor nor state{did_you_mean(name, candidates)}', WHOLE, advice
 
@@ -220,7 +224,12 @@ def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, rob
         return None
     if name in environment.sensors and is_partition(environment.sensors[name]):
         return decision.partition(name, robot)
-    if not (name in environment.sensors or name in environment.state or name in environment.world):
+    if not (
+        name in environment.sensors
+        or name in environment.state
+        or name in environment.world
+        or name in names_outside(environment)
+    ):
         names.findings.report(path, "BB041", *_not_listed(name, names))
         return None
     value = elaboration.value(Name(name, WHOLE), scope.at(path, robot))

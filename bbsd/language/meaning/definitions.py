@@ -10,11 +10,13 @@ from bbsd.expression.syntax.tree import names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
 from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
+from bbsd.language.outside import EARNED, OUTSIDE_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from bbsd.expression.syntax.tree import Expr
+    from bbsd.language.models import Environment
 
 FRAMES_OF_A_NAME = 8
 """Frames of Python's stack from a name to the expression behind it."""
@@ -38,12 +40,23 @@ def shared_namespace(spec: Spec, definitions: Mapping[str, Definition]) -> list[
     """Return every name of the shared namespace with the path that makes it."""
     environment = spec.environment
     return [
+        *_namespace_outside(environment),
         *((name, ("constants", name)) for name in spec.constants),
         *((name, ("environment", "world", name)) for name in environment.world),
         *((name, ("environment", "state", name)) for name in environment.state),
         *((name, definition.path) for name, definition in definitions.items()),
         *((name, ("environment", "sensors", name)) for name in environment.sensors),
     ]
+
+
+def _namespace_outside(environment: Environment) -> Iterator[tuple[str, Path]]:
+    """Yield the names that an environment in Python sets, with the path of each."""
+    if environment.outside:
+        yield EARNED, ("environment", environment.outside.kind)
+        is_list = isinstance(environment.observation, list)
+        for index, field in enumerate(environment.outside.fields):
+            if field.is_used:
+                yield field.name, ("environment", "observation", index if is_list else field.name)
 
 
 def report_duplicates(namespace: Iterable[tuple[str, Path]], findings: Findings) -> dict[str, Unusable]:
@@ -59,8 +72,13 @@ def report_duplicates(namespace: Iterable[tuple[str, Path]], findings: Findings)
 
 
 def _report_duplicate(name: str, path: Path, first: Path, findings: Findings) -> None:
-    message = f"{name} is already the name of something in {'.'.join(str(part) for part in first[:-1])}"
-    advice = "constants, world, state, definitions and sensors share their names"
+    place = (
+        "of what the environment rewards"
+        if first[-1] in OUTSIDE_KINDS
+        else f"of something in {'.'.join(map(str, first[:-1]))}"
+    )
+    message = f"{name} is already the name {place}"
+    advice = "constants, world, state, definitions, sensors and observations share their names"
     findings.report(path, "BB025", message, KEY, advice)
 
 

@@ -18,6 +18,7 @@ from bbsd.language.meaning.definitions import (
 from bbsd.language.meaning.episode import elaborate_episode
 from bbsd.language.meaning.meaning import Meaning, seed_key
 from bbsd.language.meaning.names import Names
+from bbsd.language.meaning.outside.checking import report_outside
 from bbsd.language.meaning.proofs.whole_numbers import report_fractions
 from bbsd.language.meaning.rates import evaluate_rates
 from bbsd.language.meaning.structure import elaborate_structure
@@ -49,6 +50,8 @@ def elaborate(
 
 
 def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings) -> Meaning | None:
+    if not report_outside(spec, findings):
+        return None
     graph = Graph()
     definitions = read_definitions(spec.environment.definitions, findings)
     unusable = {name: Unusable() for name in broken}

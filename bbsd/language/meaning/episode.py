@@ -21,9 +21,21 @@ from bbsd.expression.syntax.mistakes import KEY
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot
+from bbsd.language.meaning.outside.checking import report_truths
+from bbsd.language.meaning.outside.exchange import (
+    ONLY_OUTSIDE,
+    fractions_outside,
+    has_ended,
+    names_outside,
+    rows_of_outside,
+    rows_of_sent,
+    value_outside,
+    what_sets,
+)
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
 from bbsd.language.meaning.perceiving import Perceived, SensorFault, decision_perceived
 from bbsd.language.meaning.picture import Picture, elaborate_picture
+from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping
@@ -59,6 +71,12 @@ class Episode:
     expects: Mapping[str, tuple[Node, ...]]
     picture: Picture | None
     """What a view shows, in a graph of its own."""
+    outside: tuple[Slot, ...] = ()
+    """What an environment in Python gives at the start and at each step; none where the world is the spec's own."""
+    sent: tuple[Slot, ...] = ()
+    """What it is told at each step: the values that these slots have in `acted`."""
+    fractions: frozenset[Slot] = frozenset()
+    """What of `outside` need not be a whole number."""
 
     @property
     def nodes(self) -> list[Node]:
@@ -95,6 +113,7 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
     now = slots_read(first, names)
     decision = decision_at(now, beginning, names)
     kinds = {name: values[0].kind for name, values in first.items()}
+    report_truths(names.spec.environment.outside, kinds, names.findings)
     felt = None if fault is None else Perceived(names, first, names.graph.number(0), fault, starting=True)
     perceived = decision if felt is None else decision_perceived(now, felt, names)
     modules = tuple(modules_at(names, perceived, kinds))
@@ -124,6 +143,9 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
         },
         expects=_expects(outcome, decision),
         picture=_picture(first, beginning, names),
+        outside=rows_of_outside(names.spec.environment),
+        sent=rows_of_sent(names.spec.environment),
+        fractions=fractions_outside(names.spec.environment),
     )
     if felt is not None and fault is not None:
         after = Perceived(names, then, names.step, fault, before=perceived.scope).slots()
@@ -146,11 +168,19 @@ def modules_at(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Ite
 
 
 def starting_values(names: Names) -> Stored:
-    """Return the starting values of world and state, each evaluated when another one or the episode needs it."""
-    environment = names.spec.environment
+    """Return the starting values of world and state, each evaluated when another one or the episode needs it.
+
+    What an environment in Python sets are its reset's observation, and 0 as what it rewards.
+    """
+    environment, graph = names.spec.environment, names.graph
+    given = names_outside(environment)
     starts: dict[tuple[str, int], Node] = {}
 
     def start(name: str, robot: int) -> Node:
+        if name == EARNED and name in given:
+            return graph.number(0)
+        if name in given:
+            return value_outside(name, robot, graph)
         if (name, robot) not in starts:
             block, owner = ("world", names.team) if name in environment.world else ("state", robot)
             inner = scope.at(("environment", block, name), owner, draws=True)
@@ -161,14 +191,14 @@ def starting_values(names: Names) -> Stored:
         name: Unusable("BB066", f"{name} is not known yet when values start") for name in environment.sensors
     }
     bindings |= {name: Deferred(partial(start, name, 0)) for name in environment.world}
-    bindings |= {name: PerRobot(partial(start, name)) for name in environment.state}
+    bindings |= {name: PerRobot(partial(start, name)) for name in (*environment.state, *given)}
     scope = names.scope(bindings, names.graph.number(0))
-    robots = dict.fromkeys(environment.state, names.robots) | {name: range(1) for name in environment.world}
+    robots = dict.fromkeys((*environment.state, *given), names.robots) | {
+        name: range(1) for name in environment.world
+    }
     return {
-        name: tuple(
-            names.graph.unknown if name in names.unusable else start(name, robot) for robot in robots[name]
-        )
-        for name in (*environment.world, *environment.state)
+        name: tuple(graph.unknown if name in names.unusable else start(name, robot) for robot in robots[name])
+        for name in (*environment.world, *environment.state, *given)
     }
 
 
@@ -220,10 +250,16 @@ def _act(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], na
 def _apply_dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Names) -> Stored:
     """Return the next state and world, all at once, from the values after the actions and the snapshot's sensors."""
     environment = names.spec.environment
+    given = names_outside(environment)
     then = dict(acted)
+    for name in given:
+        then[name] = tuple(value_outside(name, robot, names.graph) for robot in names.robots)
     for name, expression in environment.dynamics.items():
         path: Path = ("environment", "dynamics", name)
-        if name in acted:
+        if name in given:
+            message, advice = f"{what_sets(name)}, which has no dynamics", ONLY_OUTSIDE
+            names.findings.report(path, "BB107", message, KEY, advice)
+        elif name in acted:
             robots = [names.team] if name in environment.world else names.robots
             then[name] = tuple(
                 _evaluate_as(kinds[name], expression, scope.at(path, robot, draws=True)) for robot in robots
@@ -265,10 +301,13 @@ def _reward(outcome: Moment) -> dict[str, tuple[Node, ...]]:
 
 
 def _ends(outcome: Moment) -> Node | None:
-    condition = outcome.names.spec.environment.ends
-    if condition is None:
-        return None
-    return elaboration.truth(condition.tree, outcome.scope.at(("environment", "ends"), outcome.names.team))
+    names = outcome.names
+    environment = names.spec.environment
+    conditions = [has_ended(names.graph)] if environment.outside else []
+    if environment.ends is not None:
+        scope = outcome.scope.at(("environment", "ends"), names.team)
+        conditions.insert(0, elaboration.truth(environment.ends.tree, scope))
+    return names.graph.fold("|", conditions) if conditions else None
 
 
 def _expects(outcome: Moment, decision: Moment) -> dict[str, tuple[Node, ...]]:

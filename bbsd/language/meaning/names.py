@@ -10,6 +10,7 @@ from bbsd.expression.graph import Graph, Level, Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Definition, Findings, PerRobot, Scope, Shared, Unusable, Value
+from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:
     from bbsd.language.meaning.constants import Constants
@@ -17,6 +18,12 @@ if TYPE_CHECKING:
 
 Stored = Mapping[str, tuple[Node, ...]]
 """The values of state (one a robot) and of the world (one) at some moment of a step."""
+
+NOT_EARNED = Unusable(
+    "BB112",
+    f"{EARNED} is what an environment in Python rewards, and this world is the spec's own",
+    "write what a step earns under reward, as an expression of state, world and sensors",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +71,7 @@ class Names:
             "generation": Unusable(
                 "BB066", "generation is known only in constants", "make a constant of it and use that"
             ),
+            **({} if self.spec.environment.outside else {EARNED: NOT_EARNED}),
             **{name: Shared(leaves) for name, leaves in self.constants.leaves.items()},
             **self.definitions,
             **bindings,

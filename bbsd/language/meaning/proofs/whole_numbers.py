@@ -36,6 +36,10 @@ class Values(Protocol):
     def definitions(self) -> Mapping[Slot, Node]:
         """What is defined in each step."""
 
+    @property
+    def fractions(self) -> frozenset[Slot]:
+        """What an environment in Python gives that need not be a whole number."""
+
 
 def report_fractions(episode: Values | None, constants: Constants, findings: Findings) -> None:
     """Report every value used as an index or in values(...) that may be a fraction.
@@ -64,12 +68,15 @@ def whole_values(episode: Values, constants: Constants) -> set[Slot]:
 
 
 def _slots_read(nodes: Sequence[Node]) -> dict[Slot, bool]:
-    return {node.slot: True for node in needed(nodes) if node.operation == "slot"}
+    return {node.slot: True for node in needed(nodes) if node.operation in ("slot", "outside")}
 
 
 def _whole_slots(episode: Values, is_whole_constant: Callable[[int | Gather], bool]) -> dict[Slot, bool]:
     """Say of each slot whether it always holds a whole number: in the largest set that starts so and stays so."""
-    whole: dict[Slot, bool] = {slot: node.kind is Kind.NUMBER for slot, node in episode.start.items()}
+    whole: dict[Slot, bool] = {
+        slot: node.kind is Kind.NUMBER and slot not in episode.fractions
+        for slot, node in episode.start.items()
+    }
     for _ in range(MAX_SPREAD):
         nodes = whole_nodes([*episode.start.values(), *episode.after.values()], whole, is_whole_constant)
         still_whole: dict[Slot, bool] = {
