@@ -11,20 +11,20 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 import bbsd
+from bbsd.evaluation.decision_process import DecisionProcess
 from bbsd.expression.graph import evaluate, needed
-from experiments.designs import Floats, spec_path
+from experiments.designs import spec_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
+    from bbsd.evaluation.decision_process import Optimum
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning.meaning import Meaning
@@ -33,24 +33,8 @@ TASKS = ("lake", "lake_8x8", "cliff_walking", "taxi", "four_rooms")
 MAX_STATES = 20_000
 """About a minute: a state takes some milliseconds."""
 
-Integers = npt.NDArray[np.int64]
 State = tuple[Any, ...]
 """A value for each slot that the future depends on."""
-
-
-TIE = 1e-12
-"""Options whose gains differ by less are equally good."""
-
-
-@dataclass(frozen=True)
-class Optimum:
-    """What can be earned in a task."""
-
-    best: float
-    """By whoever knows the steps that are left: no design earns more."""
-    fixed: float
-    """By the best policy found that always does the same in a state, as a design does."""
-    n_states: int
 
 
 class NoFiniteProcess(Exception):
@@ -204,63 +188,7 @@ def _fresh(meaning: Meaning, outputs: Sequence[Node]) -> Iterator[Slot]:
                 yield slot
 
 
-@dataclass
-class Process:
-    """A Markov decision process. An option is a choice in a state; those of a state stand together.
-
-    `outcomes` are rows of option, next state, probability and reward; the state after the last one is the end.
-    """
-
-    starts: list[tuple[float, int]]
-    options: list[int]
-    """For each state, its first option."""
-    outcomes: list[tuple[int, int, float, float]]
-
-    @property
-    def n_states(self) -> int:
-        """The number of states."""
-        return len(self.options)
-
-    def optimum(self, steps: int) -> Optimum:
-        """Return what can be earned in so many steps."""
-        values = np.zeros(self.n_states + 1)
-        policies: dict[bytes, Integers] = {}
-        for _ in range(steps):
-            gains = self._gains(values)
-            policy = self._best_options(gains)
-            policies[policy.tobytes()] = policy
-            values[:-1] = gains[policy]
-        fixed = max(self._return(policy, steps) for policy in policies.values())
-        return Optimum(self._at_start(values), fixed, self.n_states)
-
-    def _gains(self, values: Floats) -> Floats:
-        """Return what each option earns, now and later, given what the states are worth."""
-        options, next_states, probabilities, rewards = self._columns
-        return np.bincount(options, probabilities * (rewards + values[next_states])).astype(np.float64)
-
-    @cached_property
-    def _columns(self) -> tuple[Integers, Integers, Floats, Floats]:
-        options, next_states, probabilities, rewards = np.array(self.outcomes).T
-        return options.astype(np.int64), next_states.astype(np.int64), probabilities, rewards
-
-    def _best_options(self, gains: Floats) -> Integers:
-        """Return the first of the best options of each state."""
-        n_options = np.diff([*self.options, len(gains)])
-        is_best = gains >= np.repeat(np.maximum.reduceat(gains, self.options), n_options) - TIE
-        first: Integers = np.maximum.reduceat(is_best * np.arange(len(gains), 0, -1), self.options)
-        return len(gains) - first
-
-    def _return(self, policy: Integers, steps: int) -> float:
-        values = np.zeros(self.n_states + 1)
-        for _ in range(steps):
-            values[:-1] = self._gains(values)[policy]
-        return self._at_start(values)
-
-    def _at_start(self, values: Floats) -> float:
-        return float(sum(probability * values[state] for probability, state in self.starts))
-
-
-def process_of(step: Step) -> Process:
+def process_of(step: Step) -> DecisionProcess:
     """Return the process with all states that can be reached. Raises NoFiniteProcess where there are too many."""
     numbers: dict[State, int] = {}
     waiting: list[State] = []
@@ -274,17 +202,26 @@ def process_of(step: Step) -> Process:
         return numbers[state]
 
     starts = [(probability, number(state)) for probability, state in step.starts()]
-    options: list[int] = []
+    first_options: list[int] = []
     outcomes: list[tuple[int, int, float, float]] = []
     n_options = 0
     for state in waiting:  # grows while it is walked through
-        options.append(n_options)
+        first_options.append(n_options)
         for choice in step.choices(state):
             for probability, reward, then in step.outcomes(state, choice):
                 next_state = -1 if then is None else number(then)
                 outcomes.append((n_options, next_state, probability, reward))
             n_options += 1
-    return Process(starts, options, outcomes)
+    probabilities, states = np.array(starts).T
+    options, targets, chances, rewards = np.array(outcomes).T
+    return DecisionProcess(
+        np.bincount(states.astype(np.int64), probabilities, len(first_options)).astype(np.float64),
+        np.array(first_options),
+        options.astype(np.int64),
+        targets.astype(np.int64),
+        chances,
+        rewards,
+    )
 
 
 def optimum(path: Path) -> Optimum:
