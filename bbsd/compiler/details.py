@@ -23,6 +23,9 @@ class Detail(Enum):
     PRACTICE = "rollout_practice"
 
 
+PHASES = ("start", "decide", "outcome", "finish")
+"""The parts of a rollout that is printed in phases: its functions are called `rollout_start`, and so on."""
+
 IN_DETAIL = frozenset({Detail.TERMS, Detail.TRACE})
 """The rollouts that report what an evaluation adds up."""
 

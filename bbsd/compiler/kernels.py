@@ -43,11 +43,13 @@ def kernel_source(
     lanes: int,
     details: Sequence[Detail],
     most_written_out: int = MOST_ROBOTS_WRITTEN_OUT,
+    *,
+    in_phases: bool = False,
 ) -> str:
-    """Return the source of a module with these rollouts, `lanes` episodes side by side."""
+    """Return the source of a module with these rollouts, `lanes` episodes side by side; whole, or in phases."""
     programs = run_passes(meaning, details, pipeline(most_written_out))
     joint = joint_partition(meaning.episode.modules) if Detail.PRACTICE in details else None
-    return module_source(programs, tables, lanes, joint)
+    return module_source(programs, tables, lanes, joint, in_phases=in_phases)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from bbsd.expression.graph import Node
 
@@ -70,6 +70,11 @@ class Comment(NamedTuple):
 
 
 Statement = Assignment | Comment
+
+
+def definitions_of(statements: Sequence[Statement]) -> list[Assignment]:
+    """Return the statements that give a name to a value."""
+    return [each for each in statements if isinstance(each, Assignment) and each.is_definition]
 
 
 @dataclass(slots=True)
@@ -132,6 +137,11 @@ class Block:
     def keep_in(self, array: str, name: str) -> None:
         """Store a named value of the block in an array, for other blocks."""
         self.kept[name] = array
+
+    @property
+    def definitions(self) -> list[Assignment]:
+        """Its statements that give a name to a value."""
+        return definitions_of(self.statements)
 
     @property
     def lines(self) -> list[str]:

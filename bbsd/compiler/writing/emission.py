@@ -211,6 +211,8 @@ class Emitter:
                 binds = ATOM if operands[0].operation in LEAF | STORED_AT_ONCE else COMPARISON
                 operand = self._text(operands[0], into)
                 return operand._replace(source=f"not {grouped(operand, binds)}", binds=LOWEST)
+            case "outside":
+                return self.leaf(node)
             case "draw":
                 return self._draw(node, into)
             case "gather":

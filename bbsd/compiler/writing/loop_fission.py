@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.writing.blocks import Assignment, Comment
+from bbsd.compiler.writing.blocks import Comment, definitions_of
 from bbsd.compiler.writing.precedence import name_text
 from bbsd.expression.graph import Level
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.compiler.writing.blocks import Block, Blocks, Statement
+    from bbsd.compiler.writing.blocks import Assignment, Block, Blocks, Statement
     from bbsd.compiler.writing.rollout_function import RolloutFunction
 
 MOST_SEEN = 2
@@ -62,7 +62,7 @@ def split_loop(block: Block, function: RolloutFunction) -> list[list[str]]:
     """
     parts = _cut([*block.statements, *block.after], block.robots_seen)
     uses = [frozenset[str]().union(*(statement.uses for statement in part)) for part in parts]
-    definitions = [_definitions(part) for part in parts]
+    definitions = [definitions_of(part) for part in parts]
     kept, read = dict(block.kept), dict(block.read)
     for index, defined in enumerate(definitions):
         used_later = frozenset[str]().union(*uses[index + 1 :])
@@ -78,12 +78,6 @@ def split_loop(block: Block, function: RolloutFunction) -> list[list[str]]:
             *_stores(kept, defined, function),
         ]
         for part, used, defined in zip(parts, uses, definitions, strict=True)
-    ]
-
-
-def _definitions(statements: Sequence[Statement]) -> list[Assignment]:
-    return [
-        statement for statement in statements if isinstance(statement, Assignment) and statement.is_definition
     ]
 
 

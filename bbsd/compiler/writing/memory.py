@@ -35,6 +35,11 @@ class Memory:
         return name in self.own_numbers or name in self.own_integers
 
     @property
+    def names(self) -> list[str]:
+        """The names of all arrays."""
+        return [*self.numbers, *self.integers, *self.own_numbers, *self.own_integers]
+
+    @property
     def functions(self) -> set[str]:
         """The functions of the kernel that the lines call."""
         return {"part", "as_words", *(["as_integers"] if self.integers or self.own_integers else [])}

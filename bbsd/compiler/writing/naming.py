@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import keyword
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from bbsd.kernel import functions, memory, streams
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 RESERVED = (
     "np", "lane", "lanes", "base", "step", "steps", "first", "last", "keys", "key", "individuals", "packed_tables",
@@ -21,6 +25,8 @@ CALLED = {
     name for module in (functions, memory, streams) for name, value in vars(module).items() if callable(value)
 }
 TAKEN = CALLED.union(RESERVED, keyword.kwlist)
+PHASED = ("outside", "sent", "chosen", "living")
+"""The arguments that the phases of a rollout have besides, in their order."""
 
 
 @dataclass(slots=True)
@@ -37,6 +43,15 @@ class Namer:
             name += "_"
         self.taken.add(name)
         return name
+
+    def reserve(self, names: Iterable[str]) -> None:
+        """Take names that are given out elsewhere."""
+        self.taken.update(names)
+
+    def forget_all_but(self, names: Iterable[str]) -> None:
+        """Give out all names again but these and those of every rollout."""
+        self.taken = TAKEN.union(names)
+        self.numbers.clear()
 
     def numbered(self, stem: str) -> str:
         """Return the stem with the first number that is free."""

@@ -12,6 +12,7 @@ from bbsd.compiler.writing.blocks import Block
 from bbsd.compiler.writing.memory import Memory
 from bbsd.compiler.writing.naming import Namer
 from bbsd.compiler.writing.precedence import COMPARISON, Text, call, infix, name_text
+from bbsd.compiler.writing.schedule import FIRST
 from bbsd.expression.graph import Level, Node, needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
@@ -193,6 +194,20 @@ class RolloutFunction:
             return text
         return self.call_of("select", infix(">", self.read(self.running), ZERO), text, otherwise)
 
+    @property
+    def sent(self) -> tuple[Slot, ...]:
+        """What the robots send outside: rows of `sent`."""
+        return getattr(self.episode, "sent", ())
+
+    @property
+    def first_stage(self) -> int:
+        """The stage of a step in which the first loop over its robots stands."""
+        return FIRST[Level.EACH if self.looped else Level.LANE]
+
+    def chosen(self, robot: int) -> str:
+        """Return the element that keeps a robot's choice between the phases of a step."""
+        return f"chosen[{'robot' if self.looped else robot}, lane]"
+
     @cached_property
     def actions(self) -> list[str]:
         """The names of the controlling action's number, robot by robot."""
@@ -207,7 +222,13 @@ class RolloutFunction:
                 return Text("float(step)")
             case "start":
                 return Text("float(key[lane])")
+            case "outside":
+                return Text(f"outside[{self._outside_rows[node.slot]}, lane]")
         return self._constant(node)
+
+    @cached_property
+    def _outside_rows(self) -> dict[Slot, int]:
+        return {slot: row for row, slot in enumerate(getattr(self.episode, 'outside', ()))}
 
     def _constant(self, node: Node) -> Text:
         if node.number not in self.call.names:
