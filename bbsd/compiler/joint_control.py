@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.compiler.joint import joint_partition
-from bbsd.compiler.problem import compile_meaning
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Literal
 from bbsd.language.meaning.behaviors import Module
@@ -59,13 +58,7 @@ class JointControl:
     @cached_property
     def joint_problem(self) -> Problem:
         """The problem with one behavior, which has all actions and a cell for every joint cell."""
-        problem = self.problem
-        return compile_meaning(
-            _joint_meaning(problem.meaning, self.partition),
-            lanes=problem.lanes,
-            compiled=problem.compiled,
-            jobs=problem.jobs,
-        )
+        return self.problem.with_meaning(_joint_meaning(self.problem.meaning, self.partition))
 
     @cached_property
     def _digits(self) -> list[NDArray[np.int64]]:

@@ -15,8 +15,10 @@ from bbsd.compiler.details import Detail
 from bbsd.compiler.joint import joint_partition
 from bbsd.compiler.passes.pipeline import pipeline, run_passes
 from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
+from bbsd.compiler.stepped import SteppedRollout, phase_names, phases_of
 from bbsd.compiler.steps import Steps
 from bbsd.compiler.writing.source import module_source
+from bbsd.environments.stepping import EnvironmentNotImported
 from bbsd.kernel.memory import zeros
 from bbsd.kernel.modules import load_kernel
 
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler.joint import JointPartition
     from bbsd.compiler.tables import TableShape
+    from bbsd.environments.stepping import Stepper
     from bbsd.language.meaning import Meaning
 
 Rollout = Callable[..., bool | None]
@@ -64,58 +67,93 @@ class Kernels:
     """Threads that share the lanes; the outcome is the same for any number."""
     most_written_out: int = MOST_ROBOTS_WRITTEN_OUT
     """Robots up to this number are written one after the other, more in loops."""
+    stepper: Callable[[], Stepper] | None = None
+    """Makes what steps the environment, if it is stepped in Python."""
+
+    @property
+    def is_stepped(self) -> bool:
+        """Whether the environment is stepped in Python, between the phases of a kernel."""
+        return self.stepper is not None or bool(getattr(self.meaning.episode, "outside", ()))
 
     @cached_property
     def _batches(self) -> Any:  # noqa: ANN401 - a generated module
-        source = kernel_source(self.meaning, self.tables, self.lanes, BATCHES, self.most_written_out)
-        names = tuple(detail.value for detail in BATCHES)
-        return load_kernel(source, "rollout", names, compiled=self.compiled)
+        return self._load("rollout", BATCHES, self.lanes, self.most_written_out, compiled=self.compiled)
 
     @cached_property
     def _trace(self) -> Any:  # noqa: ANN401 - a generated module
-        source = kernel_source(self.meaning, self.tables, 1, (Detail.TRACE,))
-        return load_kernel(source, "trace", (), compiled=False)
+        return self._load("trace", (Detail.TRACE,), 1, MOST_ROBOTS_WRITTEN_OUT, compiled=False)
 
     @cached_property
     def _practice(self) -> Any:  # noqa: ANN401 - a generated module
+        details = (Detail.PRACTICE,)
+        return self._load("practice", details, self.lanes, self.most_written_out, compiled=self.compiled)
+
+    def _load(
+        self, name: str, details: tuple[Detail, ...], lanes: int, most_written_out: int, *, compiled: bool
+    ) -> Any:  # noqa: ANN401 - a generated module
         source = kernel_source(
-            self.meaning, self.tables, self.lanes, (Detail.PRACTICE,), self.most_written_out
+            self.meaning, self.tables, lanes, details, most_written_out, in_phases=self.is_stepped
         )
-        return load_kernel(source, "practice", (Detail.PRACTICE.value,), compiled=self.compiled)
+        names = [name for detail in details for name in self._functions(detail)] if compiled else []
+        return load_kernel(source, name, tuple(names), compiled=compiled)
+
+    def _functions(self, detail: Detail) -> tuple[str, ...]:
+        """Return the names of a rollout's functions."""
+        return phase_names(detail) if self.is_stepped else (detail.value,)
+
+    def _rollout_of(self, module: Any, detail: Detail, lanes: int) -> Rollout:  # noqa: ANN401 - a generated module
+        if self.is_stepped:
+            return SteppedRollout(phases_of(module, detail), self.meaning, lanes, self._opened)
+        rollout: Rollout = getattr(module, detail.value)
+        return rollout
+
+    @cached_property
+    def _opened(self) -> Stepper:
+        """What steps the environment. Raises EnvironmentNotImported."""
+        if self.stepper is None:
+            raise EnvironmentNotImported(str(getattr(self.meaning.spec.environment, "outside", None)))
+        return self.stepper()
 
     @cached_property
     def rollout(self) -> Rollout:
-        """The rollout that lifetimes call."""
-        rollout: Rollout = self._batches.rollout
-        return rollout
+        """The rollout that lifetimes call. Raises EnvironmentNotImported."""
+        return self._rollout_of(self._batches, Detail.CREDIT, self.lanes)
 
     @cached_property
     def rollout_detailed(self) -> Rollout:
-        """The rollout that evaluation calls."""
-        rollout: Rollout = self._batches.rollout_detailed
-        return rollout
+        """The rollout that evaluation calls. Raises EnvironmentNotImported."""
+        return self._rollout_of(self._batches, Detail.TERMS, self.lanes)
 
     @cached_property
     def rollout_practice(self) -> Rollout:
-        """The rollout that practice calls."""
-        rollout: Rollout = self._practice.rollout_practice
-        return rollout
+        """The rollout that practice calls. Raises EnvironmentNotImported."""
+        return self._rollout_of(self._practice, Detail.PRACTICE, self.lanes)
+
+    @cached_property
+    def rollout_traced(self) -> Rollout:
+        """The rollout that is run to look at one episode. Raises EnvironmentNotImported."""
+        return self._rollout_of(self._trace, Detail.TRACE, 1)
 
     @cached_property
     def joint(self) -> JointPartition:
         """The cells of all behaviors together that practice records."""
         return joint_partition(self.meaning.episode.modules)
 
+    @property
+    def n_threads(self) -> int:
+        """Threads that share the lanes: one where Python steps the environment, and holds the interpreter's lock."""
+        return 1 if self.is_stepped else self.jobs
+
     @cached_property
     def _threads(self) -> ThreadPoolExecutor:
-        return ThreadPoolExecutor(self.jobs)
+        return ThreadPoolExecutor(self.n_threads)
 
-    def run(self, rollout: Rollout, n_lanes: int, *arrays: object) -> bool:
-        """Run all lanes and return whether the outcome of any is uncertain; then that of none counts.
+    def run(self, rollout: Rollout, n_agents: int, *arrays: object) -> bool:
+        """Run the lanes of all agents and return whether the outcome of any is uncertain; then that of none counts.
 
         Several threads share the lanes where that is worth it: a kernel does not hold the interpreter's lock.
         """
-        spans, memory = self._spans(n_lanes), self._batches.MEMORY
+        spans, memory = self._spans(n_agents), self._batches.MEMORY
 
         def run_span(span: tuple[int, int]) -> bool:
             # Infinities and NaN are values in every mode; NumPy's scalars would warn of them in plain Python.
@@ -127,24 +165,25 @@ class Kernels:
         return any(list(self._threads.map(run_span, spans)))
 
     def run_practice(
-        self, n_lanes: int, before: Sequence[object], after: Sequence[object]
+        self, n_agents: int, before: Sequence[object], after: Sequence[object]
     ) -> Iterator[Steps]:
         """Run all lanes batch by batch and yield the steps of each batch, in the order of the lanes.
 
         What is yielded is overwritten later. As many batches as there are threads run at the same time.
 
         Args:
-            n_lanes: a multiple of the lanes of a batch.
+            n_agents: each has a lane.
             before, after: the arguments before and behind the arrays that hold a batch's steps.
         """
-        firsts = range(0, n_lanes, self.lanes)
-        records = [self._new_steps() for _ in range(min(self.jobs, len(firsts)))]
+        firsts = range(0, n_agents, self.lanes)
+        records = [self._new_steps() for _ in range(min(self.n_threads, len(firsts)))]
 
         def run_batch(first: int, steps: Steps) -> Steps:
             with np.errstate(all="ignore"):
                 memory = zeros(self._practice.MEMORY)
                 flat = (record.reshape(-1) for record in steps[1:])
-                self.rollout_practice(first, first + self.lanes, memory, *before, *flat, *after)
+                last = min(first + self.lanes, n_agents)
+                self.rollout_practice(first, last, memory, *before, *flat, *after)
             return steps._replace(first=first)
 
         for group in range(0, len(firsts), len(records)):
@@ -170,13 +209,13 @@ class Kernels:
     def run_traced(self, *arrays: object) -> None:
         """Run the first lane as plain Python and record every step."""
         with np.errstate(all="ignore"):
-            self._trace.rollout_traced(0, 1, zeros(self._trace.MEMORY), *arrays)
+            self.rollout_traced(0, 1, zeros(self._trace.MEMORY), *arrays)
 
-    def _spans(self, n_lanes: int) -> list[tuple[int, int]]:
-        """Return the lanes that each thread runs, whole batches of them."""
+    def _spans(self, n_agents: int) -> list[tuple[int, int]]:
+        """Return the lanes that each thread runs, whole batches of them but for the last one."""
         environment = self.meaning.spec.environment
-        batches = n_lanes // self.lanes
-        worth = n_lanes * environment.steps * environment.robots // WORTH_A_THREAD
-        parts = max(1, min(self.jobs, batches, worth))
-        ends = [batches * part // parts * self.lanes for part in range(parts + 1)]
-        return list(pairwise(ends))
+        batches = -(-n_agents // self.lanes)
+        worth = batches * self.lanes * environment.steps * environment.robots // WORTH_A_THREAD
+        parts = max(1, min(self.n_threads, batches, worth))
+        ends = [batches * part // parts * self.lanes for part in range(parts)]
+        return list(pairwise([*ends, n_agents]))

@@ -16,8 +16,9 @@ from bbsd.compiler.team import Team
 from bbsd.language.meaning.size import Size, size_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
+    from bbsd.environments.stepping import Stepper
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
 
@@ -40,6 +41,8 @@ class Problem:
     compiled: bool
     jobs: int = 1
     """Threads that share the lanes; the outcome is the same for any number."""
+    stepper: Callable[[], Stepper] | None = None
+    """Makes what steps the environment, if it is stepped in Python and may be imported."""
 
     @property
     def n_behaviors(self) -> int:
@@ -83,7 +86,13 @@ class Problem:
     @cached_property
     def kernels(self) -> Kernels:
         """The rollouts, printed and loaded when they are first run."""
-        return Kernels(self.meaning, self.tables, self.lanes, self.compiled, self.jobs)
+        return Kernels(self.meaning, self.tables, self.lanes, self.compiled, self.jobs, stepper=self.stepper)
+
+    def with_meaning(self, meaning: Meaning) -> Problem:
+        """Return the problem of another meaning in the same environment, which runs as this one does."""
+        return compile_meaning(
+            meaning, lanes=self.lanes, compiled=self.compiled, jobs=self.jobs, stepper=self.stepper
+        )
 
     def assemble(self, pools: Sequence[Pool], members: Integers, generation: int) -> Team:
         """Return agents of individuals from the pools, in the constants of a generation.
@@ -98,11 +107,17 @@ class Problem:
 
 
 def compile_meaning(
-    meaning: Meaning, *, lanes: int | None = None, compiled: bool = True, jobs: int = 1
+    meaning: Meaning,
+    *,
+    lanes: int | None = None,
+    compiled: bool = True,
+    jobs: int = 1,
+    stepper: Callable[[], Stepper] | None = None,
 ) -> Problem:
     """Return the problem of a spec's meaning; its kernels are printed and compiled when they are first run.
 
-    As plain Python, one lane at a time is the default.
+    As plain Python, one lane at a time is the default. An environment that is stepped in Python needs a stepper before
+    the first episode. With one, the kernels of any spec are printed in phases.
     """
     structure = meaning.structure
     return Problem(
@@ -116,4 +131,5 @@ def compile_meaning(
         lanes or (DEFAULT_LANES if compiled else 1),
         compiled,
         jobs,
+        stepper,
     )

@@ -118,7 +118,7 @@ class Team:
         returns, steps_taken, own_rates = np.zeros((3, self._keys.size))
         own_rates[: self.size] = rates
         before = (*self._inputs(keys, structures), returns, open_cells, own_rates)
-        for steps in self.kernels.run_practice(self._keys.size, before, (steps_taken,)):
+        for steps in self.kernels.run_practice(self.size, before, (steps_taken,)):
             last = min(steps.first + self.kernels.lanes, self.size)
             learn(steps, steps_taken[steps.first : last])
         return returns[: self.size]
@@ -146,7 +146,7 @@ class Team:
         return [np.zeros(shape) for shape in shapes]
 
     def _run(self, rollout: Rollout, *arrays: object) -> bool:
-        return self.kernels.run(rollout, self._keys.size, *arrays)
+        return self.kernels.run(rollout, self.size, *arrays)
 
     def _outputs(self, rows: int) -> Floats:
         return np.zeros((rows, self._keys.size))

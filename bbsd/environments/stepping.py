@@ -4,9 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from bbsd.errors import UsageError
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+
+class EnvironmentNotImported(UsageError):
+    """Episodes of an environment that is stepped in Python, and was not imported."""
+
+    advice = "`bbsd design` and `bbsd evaluate` import it where --allow-import NAME names it"
+
+    def __init__(self, target: str) -> None:
+        super().__init__(f"episodes need the environment {target}, and no one has allowed to import it")
 
 
 class Stepper(Protocol):

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.compiler import compile_meaning
 from bbsd.errors import UsageError
 from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.behaviors import Module
@@ -135,12 +134,8 @@ def _watched(problem: Problem, space: JointSpace, architecture: Architecture) ->
     numbers = environment.steps * environment.robots * (len(given) + len(recorders) + 2)
     if numbers > MOST_NUMBERS:
         raise TooLongToWatch(f"an episode has {environment.steps:,} steps, too many to record")
-    return compile_meaning(
-        replace(meaning, episode=episode, structure=structure),
-        lanes=min(problem.lanes, MOST_NUMBERS // numbers),
-        compiled=problem.compiled,
-        jobs=problem.jobs,
-    )
+    lanes = min(problem.lanes, MOST_NUMBERS // numbers)
+    return replace(problem, lanes=lanes).with_meaning(replace(meaning, episode=episode, structure=structure))
 
 
 def _recorders(meaning: Meaning, space: JointSpace) -> tuple[Module, ...]:

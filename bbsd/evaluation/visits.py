@@ -14,11 +14,14 @@ from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.compiler.steps import Steps
+    from bbsd.environments.stepping import Stepper
     from bbsd.language.meaning import Meaning
 
 VISITS = name_word("visits of a design")
@@ -29,9 +32,15 @@ MOST_STEPS_WITHOUT_KERNEL = 20_000
 """Steps of single robots, some seconds at most in plain Python; compiling a kernel takes longer."""
 
 
-def visits_of(meaning: Meaning, architecture: Architecture, seed: int, episodes: int) -> Visits:
+def visits_of(
+    meaning: Meaning,
+    architecture: Architecture,
+    seed: int,
+    episodes: int,
+    stepper: Callable[[], Stepper] | None = None,
+) -> Visits:
     """Count the visits of a design, in plain Python where that takes less time than to compile its kernel."""
-    problem = compile_meaning(meaning, compiled=not _is_soon_done(meaning, episodes))
+    problem = compile_meaning(meaning, compiled=not _is_soon_done(meaning, episodes), stepper=stepper)
     return count_visits(
         problem, architecture, visits_key(seed), episodes, meaning.spec.design.coevolution.generations
     )
@@ -43,7 +52,7 @@ def visits_after_design(
     """Count the visits of what was just designed; `has_kernel` says that the search has used the kernel for it."""
     meaning = problem.meaning
     if not has_kernel and _is_soon_done(meaning, EPISODES_WITHOUT_KERNEL):
-        return visits_of(meaning, architecture, seed, EPISODES_WITHOUT_KERNEL)
+        return visits_of(meaning, architecture, seed, EPISODES_WITHOUT_KERNEL, problem.stepper)
     generation = meaning.spec.design.coevolution.generations
     return count_visits(problem, architecture, visits_key(seed), EPISODES, generation)
 

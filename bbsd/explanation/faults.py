@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler import compile_meaning
 from bbsd.evaluation import Agents, Interval, agents_of, interval, returns_of
 from bbsd.evaluation.faults import faulty_meaning
 from bbsd.evaluation.frames import frame
@@ -107,9 +106,7 @@ class Disturbed:
         """The problem under the fault, as it is where only the design's tables change."""
         if self._changes_tables:
             return self.problem
-        problem = self.problem
-        meaning = faulty_meaning(problem.meaning, self.fault)
-        return compile_meaning(meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs)
+        return self.problem.with_meaning(faulty_meaning(self.problem.meaning, self.fault))
 
     @property
     def _changes_tables(self) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bbsd.compiler import compile_meaning
 from bbsd.language.design import LEAST_BUDGET
 from bbsd.language.lineage import overlay
 from bbsd.language.meaning import elaborate
@@ -91,7 +90,7 @@ def _paper(loaded: Loaded, command: Command, episodes: int) -> tuple[Problem, Se
     meaning = elaborate(spec, command.seed)[0] if spec else None
     if meaning is None:
         raise RuntimeError("a spec without mistakes has some with another method")
-    problem = compile_meaning(meaning, lanes=command.problem.lanes, jobs=command.problem.jobs)
+    problem = command.problem.with_meaning(meaning)
     return problem, settings_of(meaning)
 
 

@@ -12,7 +12,7 @@ from bbsd.compiler.details import IN_DETAIL, Detail
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.emission import emitter_of
 from bbsd.compiler.writing.loop_fission import loop_lines
-from bbsd.compiler.writing.practice import Practice
+from bbsd.compiler.writing.practice import RECORDS, Practice
 from bbsd.compiler.writing.precedence import Text, name_text
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
 from bbsd.compiler.writing.schedule import closing_of
@@ -20,6 +20,8 @@ from bbsd.compiler.writing.totals import Totals
 from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from bbsd.compiler.joint import JointPartition
     from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.emission import Emitter
@@ -64,7 +66,7 @@ class Parts:
         emitter = emitter_of(function, [*function.outputs, *function.episode.choices], arbitration.stage)
         deciding = emitter.blocks.stage(arbitration.stage)
         end = closing_of(emitter.blocks, emitter.stage_of, function.outputs)
-        self._begin_step(emitter)
+        self._begin_step(emitter, RECORDS)
         self._write_decision(emitter, deciding)
         self._write_outcome(emitter, deciding, end)
         all_over = [] if function.running is None else [f"if {function.running}.sum() == 0.0:", "    break"]
@@ -79,7 +81,7 @@ class Parts:
         emitter = emitter_of(function, outputs, arbitration.stage)
         deciding = emitter.blocks.stage(arbitration.stage)
         end = closing_of(emitter.blocks, emitter.stage_of, outputs)
-        self._begin_step(emitter)
+        self._begin_step(emitter, RECORDS[:-1])
         self._write_decision(emitter, deciding)
         for robot, action in enumerate(function.actions):
             deciding.store(function.chosen(robot), name_text(action))
@@ -94,7 +96,7 @@ class Parts:
         emitter = emitter_of(function, outputs, function.first_stage)
         first = emitter.blocks.stage(function.first_stage)
         end = closing_of(emitter.blocks, emitter.stage_of, outputs)
-        self._begin_step(emitter)
+        self._begin_step(emitter, RECORDS[-1:])
         for robot, action in enumerate(function.actions):
             first.define(action, Text(function.chosen(robot)), Kind.CELL, function.episode.choices[robot])
         self._write_outcome(emitter, first, end)
@@ -116,12 +118,14 @@ class Parts:
         """Return loops that write the sums to where the caller reads them."""
         return self.totals.finish()
 
-    def _begin_step(self, emitter: Emitter) -> None:
+    def _begin_step(self, emitter: Emitter, records: Collection[str]) -> None:
         if self.arbitration.practice is not None:
-            self.arbitration.practice.begin_step(emitter)
+            self.arbitration.practice.begin_step(emitter, records)
 
     def _write_decision(self, emitter: Emitter, deciding: Block) -> None:
-        deciding.comment("Decide: the highest layer that is excited and whose cell is not No Action controls.")
+        deciding.comment(
+            "Decide: the highest layer that is excited and whose cell is not No Action controls."
+        )
         for robot in range(self.function.robots):
             self.arbitration.decide(robot, emitter, deciding)
 

@@ -17,7 +17,7 @@ from bbsd.kernel.streams import name_word
 from bbsd.language.meaning.tables.table import OPEN_CELL
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from bbsd.compiler.joint import JointPartition
     from bbsd.compiler.writing.blocks import Block
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 PRACTICE = ("open_cells", "rates", "asked", "joint_cells", "gains", "steps_taken")
 """The arguments that a rollout for practice has besides."""
+RECORDS = ("asked", "joint_cells", "gains")
+"""Those of them that have a part for each step; the last one is known only after the step."""
 STREAM = name_word("practice") | TOP_BIT
 LARGEST_MASK = 63
 """Cells of which a number in the source can say which ones are open."""
@@ -99,12 +101,14 @@ class Practice:
         element = sum_of([Text(str(first)), Text(cell)])
         return [f"{self.function.at(self.open_flags[index, robot])} = open_cells[{element.source}]"]
 
-    def begin_step(self, emitter: Emitter) -> None:
-        """Find the present step's parts of the records."""
+    def begin_step(self, emitter: Emitter, records: Collection[str] = RECORDS) -> None:
+        """Find the present step's parts of these records."""
         function = self.function
         numbers = function.team * function.lanes
         sizes = (numbers * len(function.shapes), numbers, numbers)
-        for argument, name, size in zip(("asked", "joint_cells", "gains"), self.records, sizes, strict=True):
+        for argument, name, size in zip(RECORDS, self.records, sizes, strict=True):
+            if argument not in records:
+                continue
             first = infix("*", Text("step - 1", BINDING["-"]), Text(str(size)))
             step_part = function.call_of("part", Text(argument), first, Text(str(size)))
             emitter.blocks.step.define(name, step_part)

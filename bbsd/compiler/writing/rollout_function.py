@@ -228,7 +228,7 @@ class RolloutFunction:
 
     @cached_property
     def _outside_rows(self) -> dict[Slot, int]:
-        return {slot: row for row, slot in enumerate(getattr(self.episode, 'outside', ()))}
+        return {slot: row for row, slot in enumerate(getattr(self.episode, "outside", ()))}
 
     def _constant(self, node: Node) -> Text:
         if node.number not in self.call.names:

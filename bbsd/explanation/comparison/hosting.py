@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bbsd.architecture import Architecture, joint_space
-from bbsd.compiler import compile_meaning
 from bbsd.errors import UsageError
 from bbsd.explanation.comparison.common import definition_differences
 from bbsd.language.meaning import elaborate
@@ -97,7 +96,7 @@ def hosted(host: Design, guest: Design, guest_name: str) -> Hosted:
     meaning, problem = host.loaded.meaning, host.problem
     if foreign:
         meaning = _with_behaviors(host, guest, foreign)
-        problem = compile_meaning(meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs)
+        problem = problem.with_meaning(meaning)
     n_own = len(host.modules)
     tables = dict(zip(guest.problem.names, guest.architecture.tables, strict=True))
     index = {name: number for number, name in enumerate(host.problem.names) if name in same}

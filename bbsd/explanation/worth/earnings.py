@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.compiler import compile_meaning
 from bbsd.compiler.team import Team
 from bbsd.evaluation.episodes import batches_of
 from bbsd.evaluation.sums import column_sums
@@ -54,7 +53,7 @@ def earnings(problem: Problem, agent: Agents, keys: Keys, generation: int) -> Ea
         generation: in whose constants they run.
     """
     meaning = _weighted(problem.meaning)
-    weighted = compile_meaning(meaning, lanes=problem.lanes, compiled=problem.compiled, jobs=problem.jobs)
+    weighted = problem.with_meaning(meaning)
     n_terms = len(problem.meaning.episode.reward)
     constants = np.array(meaning.constants.vector(generation))
     sums = []
