@@ -22,6 +22,7 @@ NOT_VERIFIED = 1
 class TargetName(StrEnum):
     """What a design can be written for."""
 
+    C = "c"
     PYTHON = "python"
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.exports import python
+from bbsd.exports import c, python
+from bbsd.exports.verification.compilers import run_gcc
 from bbsd.exports.verification.interpreters import run_cpython, run_micropython
 from bbsd.exports.verification.tools import Runner
 
@@ -25,6 +26,7 @@ class Target(NamedTuple):
 
 TARGETS: Mapping[str, Target] = MappingProxyType(
     {
+        "c": Target("a C99 header, whole numbers only", c.write, (Runner("gcc", run_gcc),)),
         "python": Target(
             "a Python module without dependencies, also for MicroPython",
             python.write,

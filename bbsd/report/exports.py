@@ -20,7 +20,7 @@ def verified_lines(export: Export) -> list[str]:
 
 def _lines(verified: Verified) -> list[str]:
     if verified.missing:
-        return [f"{verified.tool} was not found: not verified there"]
+        return [f"{verified.tool} was not found: not verified"]
     if verified.failure:
         return [f"{verified.tool}: not verified: {verified.failure}"]
     counts = f"{verified.tool}: {verified.equal:,} of {verified.compared:,} cells equal"

@@ -1,16 +1,17 @@
 """Designs for the tests of exports, and tools that must be there where the environment says so."""
 
 import os
+from contextlib import contextmanager
 
 import pytest
 
 import bbsd
 from bbsd.architecture import architecture_of
 from bbsd.exports.exported import exported_design
-from bbsd.exports.verification.tools import ToolMissing
+from bbsd.exports.verification.tools import ToolMissing, found
 from tests.unit.architecture.designs import SPECS, meaning_of, random_architecture, small
 
-MUST_BE_THERE = "BBSD_TEST_ALL_TARGETS"
+MUST_BE_THERE = "BBSD_REQUIRE_TARGETS"
 """With this variable a target that is missing fails its tests instead of skipping them."""
 
 SHIPPED = sorted(
@@ -55,8 +56,20 @@ def written(behaviors, name="small"):
 
 def answers(run, exported, files, cells):
     """What a runner answers; the test is skipped where its tool is missing, unless it must be there."""
-    try:
+    with there():
         return run(exported, files, cells)
+
+
+def tool(name):
+    """Where a tool is, as `answers`."""
+    with there():
+        return found(name)
+
+
+@contextmanager
+def there():
+    try:
+        yield
     except ToolMissing as missing:
         if os.environ.get(MUST_BE_THERE):
             raise
