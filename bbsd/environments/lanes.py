@@ -1,0 +1,151 @@
+"""An environment in each lane, stepped one after another in plain Python; what each kind of library does is below."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from bbsd.environments.failures import ActionRefused, EnvironmentFailed, EnvironmentHangs, failure_text
+from bbsd.environments.reading import WrongObservationError
+from bbsd.environments.sending import WrongValueError
+from bbsd.environments.time_limit import CallTooLongError, CallWatch
+from bbsd.errors import UsageError
+from bbsd.kernel.streams import fold, name_word
+from bbsd.stopping import raise_if_stopped
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from bbsd.environments.reading import Reader
+    from bbsd.environments.sending import Sender
+
+    Integers = NDArray[np.int64]
+    Keys = NDArray[np.uint64]
+    Floats = NDArray[np.float64]
+
+SEED = name_word("seed of an environment's episode")
+SEED_BITS = 31
+"""Bits of a seed: what every generator of random numbers takes, also where seeds are signed."""
+RESULTS = 5
+"""What a step returns: an observation, a reward, terminated, truncated, and what else there is to say."""
+
+
+def seed_of(key: int) -> int:
+    """Return the seed with which the episode of a key is begun."""
+    return fold(key, SEED) >> (64 - SEED_BITS)
+
+
+@dataclass(frozen=True)
+class Dealings:
+    """How lanes deal with an environment: how it is made, what is read of it, what is sent to it."""
+
+    name: str
+    make: Callable[[], Any]
+    read: Reader
+    send: Sender
+    n_fields: int
+    """Fields that have names."""
+    actions: tuple[str, ...]
+    agents: tuple[str, ...] = ()
+    """The agents of a PettingZoo environment, which are the robots; none of others."""
+    most_steps: int | None = None
+    """Steps after which an episode is truncated, as its registration says."""
+    seconds: float = 30.0
+    """How long a call may take."""
+
+
+class Episode(NamedTuple):
+    """Which episode a lane is in."""
+
+    seed: int
+    steps: int
+
+
+class Lanes:
+    """Steps an environment of its own in each lane; made when the lane is first used."""
+
+    def __init__(self, dealings: Dealings) -> None:
+        self.dealings = dealings
+        self._environments: dict[int, Any] = {}
+        self._episodes: dict[int, Episode] = {}
+        self._watch = CallWatch(dealings.seconds)
+        self._lane = -1
+
+    def reset(self, lanes: Integers, keys: Keys, outside: Floats) -> None:
+        """Begin an episode in some lanes, as `bbsd.environments.stepping.Stepper` says."""
+        with self._calling():
+            for lane in lanes.tolist():
+                self._lane = lane
+                self._watch.calls += 1
+                episode = self._episodes[lane] = Episode(seed_of(int(keys[lane])), 0)
+                if lane not in self._environments:
+                    self._environments[lane] = self.dealings.make()
+                    self._watch.calls += 1
+                outside[:, lane] = 0.0
+                self._begin(lane, episode.seed, outside)
+
+    def step(self, lanes: Integers, sent: Floats, outside: Floats) -> None:
+        """Step some lanes, as `bbsd.environments.stepping.Stepper` says."""
+        most_steps = self.dealings.most_steps
+        with self._calling():
+            for lane in lanes.tolist():
+                self._lane = lane
+                self._watch.calls += 1
+                seed, before = self._episodes[lane]
+                self._episodes[lane] = Episode(seed, before + 1)
+                ended = self._advance(lane, sent, outside)
+                outside[-1, lane] = ended or before + 1 == most_steps
+
+    def _begin(self, lane: int, seed: int, outside: Floats) -> None:
+        raise NotImplementedError
+
+    def _advance(self, lane: int, sent: Floats, outside: Floats) -> bool:
+        raise NotImplementedError
+
+    @contextmanager
+    def _calling(self) -> Iterator[None]:
+        """Let an environment be called inside: limited in time, its prints told apart from results, errors in words."""
+        raise_if_stopped()
+        try:
+            with redirect_stdout(sys.stderr), self._watch:
+                yield
+        except (UsageError, KeyboardInterrupt):
+            raise
+        except WrongObservationError as error:
+            raise EnvironmentFailed(f"{self._where()}: {error}") from None
+        except WrongValueError as error:
+            name = self.dealings.actions[error.index]
+            message = f"{self._where()}: {name} is {error.value!r}, and the environment takes {error.taken}"
+            raise ActionRefused(message) from None
+        except CallTooLongError:
+            limit = f"{self.dealings.seconds:g} s"
+            raise EnvironmentHangs(f"{self._where()}: it did not return within {limit}") from None
+        except (Exception, SystemExit) as error:
+            raise EnvironmentFailed(failure_text(f"{self._where()}", error)) from None
+
+    def _where(self) -> str:
+        episode = self._episodes.get(self._lane, Episode(0, 0))
+        what = f"step {episode.steps}" if episode.steps else "the reset"
+        return f"{self.dealings.name}, in {what} of an episode (seed {episode.seed})"
+
+
+def checked_results(results: Any) -> Any:  # noqa: ANN401 - whatever an environment returns
+    """Return what a step returned; raise WrongObservationError where it is not five things."""
+    if not isinstance(results, tuple) or len(results) != RESULTS:
+        given = f"{len(results)} values" if isinstance(results, tuple) else type(results).__name__
+        wanted = "observation, reward, terminated, truncated, info"
+        raise WrongObservationError(f"step returned {given}, not five: {wanted}")
+    return results
+
+
+def checked_start(results: Any) -> Any:  # noqa: ANN401 - whatever an environment returns
+    """Return the observation that a reset returned; raise WrongObservationError where it did not return two things."""
+    if not isinstance(results, tuple) or len(results) != 2:
+        given = f"{len(results)} values" if isinstance(results, tuple) else type(results).__name__
+        raise WrongObservationError(f"reset returned {given}, not two: observation, info")
+    return results[0]

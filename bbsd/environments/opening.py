@@ -1,0 +1,204 @@
+"""An environment whose import was allowed, opened: its spaces, what identifies it, and what steps it."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from bbsd.environments.consent import Consent
+from bbsd.environments.failures import EnvironmentFailed, EnvironmentHangs, failure_text
+from bbsd.environments.gymnasium_lanes import GymnasiumLanes
+from bbsd.environments.importing import searching
+from bbsd.environments.lanes import Dealings, checked_start
+from bbsd.environments.making import UnfitError, making_of, making_of_class
+from bbsd.environments.matching import Misfit
+from bbsd.environments.origin import origin_of
+from bbsd.environments.pettingzoo_lanes import PettingZooLanes
+from bbsd.environments.reading import WrongObservationError, reader_of
+from bbsd.environments.sending import sender_of
+from bbsd.environments.spaces import Space, space_of, space_of_value
+from bbsd.environments.time_limit import DEFAULT_LIMIT, CallTooLongError, CallWatch
+from bbsd.errors import UsageError, escape
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from bbsd.environments.importing import Announce
+    from bbsd.environments.lanes import Lanes
+    from bbsd.environments.making import Making
+    from bbsd.language.outside import Outside
+
+
+class OtherEnvironment(UsageError):
+    """Another process has another version of an environment."""
+
+    advice = "install the same versions everywhere"
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How to open an environment, also in another process: what the spec says of it, and the consent of the user."""
+
+    outside: Outside
+    robots: int
+    consent: Consent = field(default_factory=Consent)
+    closed: tuple[str, ...] = ()
+    """Folders from which nothing is imported unless the consent names them."""
+    seconds: float = DEFAULT_LIMIT
+    given: Callable[..., Any] | None = None
+    """A class that the caller has in hand; nothing is imported then."""
+
+
+@dataclass(frozen=True)
+class Opened:
+    """An environment that can be stepped."""
+
+    recipe: Recipe
+    making: Making
+    observed: Space
+    taken: Space | None
+    """None where the environment names no space of actions."""
+    agents: tuple[str, ...]
+    """The agents of a PettingZoo environment; none of others."""
+    origin: dict[str, str]
+    """Versions of distributions by their modules, and a digest of the file that the environment is from."""
+
+    @property
+    def name(self) -> str:
+        """What the environment is called."""
+        return self.recipe.outside.target
+
+    def make(self) -> Any:  # noqa: ANN401 - whatever environment
+        """Return a new environment, without the wrappers that `gymnasium.make` adds."""
+        return self.making.make()
+
+    def stepper(self) -> Lanes:
+        """Return what steps the environment in lanes; the spec must fit it (`matching.misfits`)."""
+        outside = self.recipe.outside
+        dealings = Dealings(
+            self.name,
+            self.make,
+            reader_of(outside.fields, self.observed),
+            sender_of(self.taken, len(outside.actions)),
+            sum(field.is_used for field in outside.fields),
+            outside.actions,
+            self.agents,
+            self.making.most_steps,
+            self.recipe.seconds,
+        )
+        return PettingZooLanes(dealings) if self.agents else GymnasiumLanes(dealings)
+
+    def plain(self) -> dict[str, Any]:
+        """Return what identifies the environment, as `run.json` holds it."""
+        return {
+            "target": self.name,
+            **self.origin,
+            "observation space": str(self.observed),
+            "action space": "unknown" if self.taken is None else str(self.taken),
+            **({"agents": " ".join(self.agents)} if self.agents else {}),
+            **({} if self.making.most_steps is None else {"step limit": str(self.making.most_steps)}),
+        }
+
+    def __reduce__(self) -> tuple[Callable[..., Opened], tuple[Recipe, dict[str, Any]]]:
+        return _opened_again, (self.recipe, self.plain())
+
+
+def _opened_again(recipe: Recipe, expected: dict[str, Any]) -> Opened:
+    """Open an environment in another process, by the consent that the recipe brings along."""
+    opened = open_environment(recipe)
+    found = opened.plain()
+    different = [key for key in {**expected, **found} if expected.get(key) != found.get(key)]
+    if different:
+        words = [f"{key} ({found.get(key, 'none')}, not {expected.get(key, 'none')})" for key in different]
+        raise OtherEnvironment(f"{opened.name} is another one in a worker process: {', '.join(words)}")
+    return opened
+
+
+def open_environment(recipe: Recipe, announce: Announce | None = None) -> Opened:
+    """Import what an environment needs as far as that was allowed, make one, and look at its spaces.
+
+    Args:
+        recipe: which environment, and what may be imported.
+        announce: called with each module and its file before it is imported.
+
+    Raises:
+        ImportNotAllowed, NoSuchModule, EnvironmentFailed, EnvironmentHangs: what can happen on the way.
+        UnfitError: there is no such environment, or it cannot be made with these arguments or for these robots.
+    """
+    outside = recipe.outside
+    with searching(recipe.consent, recipe.closed):
+        if recipe.given is not None:
+            making = making_of_class(recipe.given, outside)
+        else:
+            making = making_of(outside, recipe.consent, announce)
+        with _calling(outside.target, recipe.seconds):
+            environment = _made(making, outside)
+            agents = tuple(map(str, getattr(environment, "possible_agents", ())))
+            _require_robots(recipe.robots, agents, outside)
+            observed, taken = _spaces(environment, agents)
+    modules = making.modules if recipe.given is None else ()
+    return Opened(recipe, making, observed, taken, agents, origin_of(environment, modules))
+
+
+def _made(making: Making, outside: Outside) -> Any:  # noqa: ANN401 - whatever environment
+    try:
+        return making.make()
+    except (Exception, SystemExit) as error:
+        said = escape(" ".join(str(error).split()))
+        message = f"{outside.target} cannot be made with these arguments: {type(error).__name__}: {said}"
+        key = "with" if outside.arguments else outside.kind
+        raise UnfitError(Misfit("BB122", ("environment", key), message)) from None
+
+
+def _require_robots(robots: int, agents: tuple[str, ...], outside: Outside) -> None:
+    path = ("environment", "robots")
+    if outside.kind == "pettingzoo" and not agents:
+        message = f"{outside.target} names no possible_agents"
+        raise UnfitError(Misfit("BB121", ("environment", outside.kind), message))
+    if not agents and robots != 1:
+        message = f"{outside.target} has one robot, not {robots}"
+        raise UnfitError(Misfit("BB120", path, message, "write robots: 1, or leave it out"))
+    if agents and len(agents) != robots:
+        message = f"{outside.target} has {len(agents)} agents, and robots is {robots}"
+        raise UnfitError(Misfit("BB120", path, message, f"write robots: {len(agents)}"))
+
+
+def _spaces(environment: Any, agents: tuple[str, ...]) -> tuple[Space, Space | None]:  # noqa: ANN401
+    """Return the spaces of observations and of actions; where none is named, what a first observation suggests."""
+    if agents:
+        observed = {agent: space_of(environment.observation_space(agent)) for agent in agents}
+        taken = {agent: space_of(environment.action_space(agent)) for agent in agents}
+        _require_alike(observed, "observes")
+        _require_alike(taken, "does")
+        return observed[agents[0]], taken[agents[0]]
+    space, actions = (getattr(environment, name, None) for name in ("observation_space", "action_space"))
+    observed_space = (
+        space_of_value(checked_start(environment.reset(seed=0))) if space is None else space_of(space)
+    )
+    return observed_space, None if actions is None else space_of(actions)
+
+
+def _require_alike(spaces: dict[str, Space], what: str) -> None:
+    (first, space), *others = spaces.items()
+    for agent, other in others:
+        if other != space:
+            message = f"{agent} {what} {other}, and {first} {space}: one design cannot serve both"
+            raise UnfitError(Misfit("BB124", ("environment", "pettingzoo"), message))
+
+
+@contextmanager
+def _calling(name: str, seconds: float) -> Iterator[None]:
+    """Let an environment be made and looked at inside, with its errors in words."""
+    try:
+        with redirect_stdout(sys.stderr), CallWatch(seconds):
+            yield
+    except (UsageError, UnfitError, KeyboardInterrupt):
+        raise
+    except WrongObservationError as error:
+        raise EnvironmentFailed(f"{name}: {error}") from None
+    except CallTooLongError:
+        raise EnvironmentHangs(f"{name}: it was not made within {seconds:g} s") from None
+    except (Exception, SystemExit) as error:
+        raise EnvironmentFailed(failure_text(f"{name}, when it was made,", error)) from None
