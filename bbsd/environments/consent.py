@@ -65,7 +65,7 @@ class Consent:
             return
         top = module.partition(".")[0]
         error = ImportNotAllowed(
-            f"{whose} needs the module {module}, and importing a module runs its code; nothing was imported"
+            f"{whose} needs the module {module}, and importing a module runs its code; it was not imported"
         )
         error.advice = f"if you trust it: --allow-import {top} (in Python, allow_import=[{top!r}])"
         raise error

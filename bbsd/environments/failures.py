@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from traceback import FrameSummary
 
 OWN_FOLDER = str(Path(__file__).parents[1])
+IMPORTLIB = str(Path(importlib.__file__).parent)
 SHOWN = 3
 """Calls of an environment's own that are shown of an error, the last ones."""
 MOST_CHARACTERS = 500
@@ -28,7 +30,9 @@ class EnvironmentFailed(UsageError):
 class EnvironmentHangs(UsageError):
     """A call of an environment did not return in time."""
 
-    advice = "raise --step-limit if it is only slow; else mend the environment, or give it other arguments (with:)"
+    advice = (
+        "raise --step-limit if it is only slow; else mend the environment, or give it other arguments (with:)"
+    )
 
 
 class ActionRefused(UsageError):
@@ -51,7 +55,7 @@ def failure_text(what: str, error: BaseException) -> str:
 
 
 def _is_theirs(frame: FrameSummary) -> bool:
-    return not frame.filename.startswith((OWN_FOLDER, "<frozen importlib"))
+    return not frame.filename.startswith((OWN_FOLDER, IMPORTLIB, "<frozen importlib"))
 
 
 def _frame_text(frame: FrameSummary) -> str:

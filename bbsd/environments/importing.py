@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.environments.consent import INSTALLED_BY
 from bbsd.environments.failures import EnvironmentFailed, failure_text
-from bbsd.errors import UsageError
+from bbsd.errors import UsageError, escape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -84,7 +84,11 @@ def imported(module: str, consent: Consent, whose: str, announce: Announce | Non
         if error.name is not None and (module == error.name or module.startswith(f"{error.name}.")):
             raise _missing(error.name, whose) from None
         raise _needs_more(module, error) from None
-    except (Exception, SystemExit) as error:
+    except ImportError as error:
+        raise _cannot(module, error) from None
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - all that somebody else's code may raise
+        if type(error).__name__ == "DependencyNotInstalled":  # Gymnasium's, which is no ImportError
+            raise _cannot(module, error) from None
         raise EnvironmentFailed(failure_text(f"the import of {module}", error)) from None
 
 
@@ -114,6 +118,13 @@ def _needs_more(module: str, error: ModuleNotFoundError) -> NoSuchModule:
     needed = (error.name or "").partition(".")[0]
     missing = NoSuchModule(f"{module} imports {error.name}, which is not installed")
     missing.advice = INSTALLED_BY.get(needed, f"install what {module} needs (often: pip install {needed})")
+    return missing
+
+
+def _cannot(module: str, error: BaseException) -> NoSuchModule:
+    said = escape(" ".join(str(error).split()))
+    missing = NoSuchModule(f"{module} cannot be imported: {said}")
+    missing.advice = "install what is missing, in the Python that runs bbsd"
     return missing
 
 

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import sys
-from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bbsd.environments.failures import ActionRefused, EnvironmentFailed, EnvironmentHangs, failure_text
+from bbsd.environments.calling import calling
 from bbsd.environments.reading import WrongObservationError
-from bbsd.environments.sending import WrongValueError
-from bbsd.environments.time_limit import CallTooLongError, CallWatch
-from bbsd.errors import UsageError
+from bbsd.environments.time_limit import DEFAULT_LIMIT, CallWatch
 from bbsd.kernel.streams import fold, name_word
 from bbsd.stopping import raise_if_stopped
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
+    from contextlib import AbstractContextManager
 
     import numpy as np
     from numpy.typing import NDArray
@@ -55,7 +52,7 @@ class Dealings:
     """The agents of a PettingZoo environment, which are the robots; none of others."""
     most_steps: int | None = None
     """Steps after which an episode is truncated, as its registration says."""
-    seconds: float = 30.0
+    seconds: float = DEFAULT_LIMIT
     """How long a call may take."""
 
 
@@ -107,26 +104,9 @@ class Lanes:
     def _advance(self, lane: int, sent: Floats, outside: Floats) -> bool:
         raise NotImplementedError
 
-    @contextmanager
-    def _calling(self) -> Iterator[None]:
-        """Let an environment be called inside: limited in time, its prints told apart from results, errors in words."""
+    def _calling(self) -> AbstractContextManager[None]:
         raise_if_stopped()
-        try:
-            with redirect_stdout(sys.stderr), self._watch:
-                yield
-        except (UsageError, KeyboardInterrupt):
-            raise
-        except WrongObservationError as error:
-            raise EnvironmentFailed(f"{self._where()}: {error}") from None
-        except WrongValueError as error:
-            name = self.dealings.actions[error.index]
-            message = f"{self._where()}: {name} is {error.value!r}, and the environment takes {error.taken}"
-            raise ActionRefused(message) from None
-        except CallTooLongError:
-            limit = f"{self.dealings.seconds:g} s"
-            raise EnvironmentHangs(f"{self._where()}: it did not return within {limit}") from None
-        except (Exception, SystemExit) as error:
-            raise EnvironmentFailed(failure_text(f"{self._where()}", error)) from None
+        return calling(self._where, self._watch, self.dealings.actions)
 
     def _where(self) -> str:
         episode = self._episodes.get(self._lane, Episode(0, 0))

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from bbsd.environments.importing import NoSuchModule, imported
-from bbsd.environments.matching import Misfit
+from bbsd.environments.misfits import Misfit, UnfitError
 from bbsd.errors import did_you_mean
 
 if TYPE_CHECKING:
@@ -32,14 +32,6 @@ PACKAGES: Mapping[str, str] = {
 """Packages that register well-known ids when they are imported, by how these ids begin."""
 MOVED: Mapping[str, str] = {"pettingzoo.mpe.": "mpe2."}
 """Where environments went that their package no longer has."""
-
-
-class UnfitError(Exception):
-    """A spec that does not fit its environment: at least one misfit."""
-
-    def __init__(self, *misfits: Misfit) -> None:
-        super().__init__(*misfits)
-        self.misfits = misfits
 
 
 @dataclass(frozen=True)
@@ -108,11 +100,16 @@ def _most_steps(wanted: object) -> int | None:
     if isinstance(wanted, int) and not isinstance(wanted, bool) and wanted > 0:
         return wanted
     path = ("environment", "with", "max_episode_steps")
-    raise UnfitError(Misfit("BB122", path, "max_episode_steps is a whole number from 1 on, or -1 for no limit"))
+    raise UnfitError(
+        Misfit("BB122", path, "max_episode_steps is a whole number from 1 on, or -1 for no limit")
+    )
 
 
 def _entry(
-    entry: Any, outside: Outside, consent: Consent, announce: Announce | None  # noqa: ANN401 - a text or what it names
+    entry: Any,  # noqa: ANN401 - a text or what it names
+    outside: Outside,
+    consent: Consent,
+    announce: Announce | None,
 ) -> tuple[Callable[..., Any], str]:
     """Return what a registered entry point names, and its module, which must be allowed too."""
     if isinstance(entry, str):
@@ -162,38 +159,40 @@ def _version(name: str) -> int:
 
 
 def _of_pettingzoo(outside: Outside, consent: Consent, announce: Announce | None) -> Making:
-    consent.require(outside.target, outside.target)
+    for old, new in MOVED.items():
+        if outside.target.startswith(old):
+            raise _replaced(outside, new + outside.target.removeprefix(old))
     try:
         module = imported(outside.target, consent, outside.target, announce)
-    except NoSuchModule as error:
-        successor = _successor(outside.target, consent)
-        if successor is None:
-            raise
-        message = f"{outside.target} is not there: {error}"
-        if successor:
-            message = f"{outside.target} is no longer there; its successor is {successor}"
-        raise _unknown(outside, message, f"write pettingzoo: {successor}" if successor else "") from None
+    except NoSuchModule:
+        raise _not_among_siblings(outside, consent) from None
     create = getattr(module, "parallel_env", None)
     if not callable(create):
         advice = "environments in which agents take turns cannot be used"
-        raise _unknown(outside, f"{outside.target} has no parallel_env, in which all agents act at once", advice)
+        raise _unknown(
+            outside, f"{outside.target} has no parallel_env, in which all agents act at once", advice
+        )
     label = VERSION.sub(r"\g<name>", outside.target.rpartition(".")[2])
     return Making(create, outside.arguments, (outside.target,), label=label)
 
 
-def _successor(target: str, consent: Consent) -> str | None:
-    """Return another version of an environment that is not there; None where none is known."""
-    for old, new in MOVED.items():
-        if target.startswith(old):
-            return new + target.removeprefix(old)
-    package, _, name = target.rpartition(".")
-    try:
-        parent = imported(package, consent, target) if consent.covers(package) else None
-    except NoSuchModule:
-        return None
+def _not_among_siblings(outside: Outside, consent: Consent) -> Exception:
+    """Return the error of an environment that is not in its package, with what may be meant."""
+    package, _, name = outside.target.rpartition(".")
+    if not consent.covers(package):
+        return _unknown(outside, f"there is no {outside.target}")
+    parent = imported(package, consent, outside.target)
     siblings = [found.name for found in pkgutil.iter_modules(getattr(parent, "__path__", ()))]
     others = _other_versions(name, siblings)
-    return f"{package}.{others[-1]}" if others else None
+    if others:
+        return _replaced(outside, f"{package}.{others[-1]}")
+    environments = [sibling for sibling in siblings if VERSION.fullmatch(sibling)]
+    return _unknown(outside, f"{package} has no environment {name}{did_you_mean(name, environments)}")
+
+
+def _replaced(outside: Outside, successor: str) -> UnfitError:
+    message = f"{outside.target} is not there; its successor is {successor}"
+    return _unknown(outside, message, f"write pettingzoo: {successor}")
 
 
 def _of_python(outside: Outside, consent: Consent, announce: Announce | None) -> Making:

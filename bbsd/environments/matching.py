@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
+from bbsd.environments.misfits import Misfit, Path
 from bbsd.environments.naming import observation_text
 from bbsd.environments.sending import n_sent, taken_text, takes
 from bbsd.environments.spaces import (
@@ -26,20 +27,10 @@ if TYPE_CHECKING:
 
     from bbsd.language.outside import Field, ObservationPath, Outside
 
-Path = tuple[str | int, ...]
 OBSERVATION: Path = ("environment", "observation")
 ACTION: Path = ("environment", "action")
 MOST_NAMED = 8
 """Parts of a space that a message names."""
-
-
-class Misfit(NamedTuple):
-    """Where a spec does not fit its environment: the kind, the place in the spec, what is wrong, what to do."""
-
-    code: str
-    path: Path
-    message: str
-    advice: str = ""
 
 
 class Setting(NamedTuple):
@@ -50,7 +41,9 @@ class Setting(NamedTuple):
     path: Path
 
 
-def misfits(outside: Outside, observed: Space, taken: Space | None, settings: Iterable[Setting]) -> list[Misfit]:
+def misfits(
+    outside: Outside, observed: Space, taken: Space | None, settings: Iterable[Setting]
+) -> list[Misfit]:
     """Return where a spec does not fit the spaces of its environment; none where all fits.
 
     Args:
@@ -70,7 +63,9 @@ def _observation_misfits(fields: Sequence[Field], space: Space) -> Iterator[Misf
     with_size = [field for field in fields if field.size is not None]
     if with_path:
         for field in with_size:
-            yield Misfit("BB115", (*OBSERVATION, field.name), "sizes and paths cannot be mixed", "give its path")
+            yield Misfit(
+                "BB115", (*OBSERVATION, field.name), "sizes and paths cannot be mixed", "give its path"
+            )
         for field in with_path:
             yield from _path_misfits(field.name, field.path or (), space)
     elif with_size:
@@ -86,7 +81,9 @@ def _list_misfits(n_names: int, space: Space) -> Iterator[Misfit]:
         yield Misfit("BB116", OBSERVATION, f"an observation is {space}, which is not all numbers", proposal)
     elif n_numbers != n_names:
         names = f"{n_names} name{'s' * (n_names != 1)}"
-        message = f"an observation has {n_numbers} number{'s' * (n_numbers != 1)}, {space}, and there are {names}"
+        message = (
+            f"an observation has {n_numbers} number{'s' * (n_numbers != 1)}, {space}, and there are {names}"
+        )
         yield Misfit("BB113", OBSERVATION, message, proposal)
 
 
@@ -98,7 +95,9 @@ def _size_misfits(fields: Sequence[Field], space: Space) -> Iterator[Misfit]:
         if prod(sizes) != space.n:
             product = " * ".join(map(str, sizes)) + (f" = {prod(sizes)}" if len(sizes) > 1 else "")
             message = f"an observation is one of {space.n} numbers, and the sizes are for {product}"
-            yield Misfit("BB115", OBSERVATION, message, "the product of the sizes must be the number of values")
+            yield Misfit(
+                "BB115", OBSERVATION, message, "the product of the sizes must be the number of values"
+            )
     elif wanted is None:
         message = f"an observation is {space}, of which no whole numbers with a size can be made"
         yield Misfit("BB115", OBSERVATION, message, proposal)
@@ -144,7 +143,10 @@ def _path_problem(path: ObservationPath, space: Space) -> tuple[str, str] | None
                 return f"{before} is {space}, which has no parts", "end the path there"
     if is_one_number(space):
         return None
-    return f"{path_text(path)} is {space}, not a number", f"lead on to one, such as {_first_number(path, space)}"
+    return (
+        f"{path_text(path)} is {space}, not a number",
+        f"lead on to one, such as {_first_number(path, space)}",
+    )
 
 
 def _index_problem(rest: ObservationPath, shape: tuple[int, ...], before: str) -> tuple[str, str] | None:
@@ -189,7 +191,9 @@ def _action_misfits(actions: Sequence[str], space: Space | None) -> Iterator[Mis
         values = "one number" if n_values == 1 else f"{n_values} numbers"
         names = f"{len(actions)} name{'s' * (len(actions) != 1)}"
         advice = "name one state" if n_values == 1 else f"write a list of {n_values} names of state"
-        yield Misfit("BB117", ACTION, f"the environment takes {values}, {space}, and there are {names}", advice)
+        yield Misfit(
+            "BB117", ACTION, f"the environment takes {values}, {space}, and there are {names}", advice
+        )
 
 
 def _value_misfits(actions: Sequence[str], space: Space, settings: Iterable[Setting]) -> Iterator[Misfit]:
@@ -198,5 +202,6 @@ def _value_misfits(actions: Sequence[str], space: Space, settings: Iterable[Sett
             continue
         index = actions.index(setting.name)
         if not takes(space, index, setting.value):
-            message = f"{setting.name} is {setting.value:.7g} here, and the environment takes {taken_text(space, index)}"
+            taken = taken_text(space, index)
+            message = f"{setting.name} is {setting.value:.7g} here, and the environment takes {taken}"
             yield Misfit("BB118", setting.path, message)

@@ -80,7 +80,9 @@ def _paths(space: Space) -> dict[str, str]:
 
 def _name(path: tuple[str | int, ...], taken: dict[str, str]) -> str:
     text = "_".join(str(segment).lower() for segment in path)
-    text = "".join(letter if letter.isascii() and (letter.isalnum() or letter == "_") else "_" for letter in text)
+    text = "".join(
+        letter if letter.isascii() and (letter.isalnum() or letter == "_") else "_" for letter in text
+    )
     name = text if is_value_name(text) else f"part_{text}"
     while name in taken or not is_value_name(name):
         name = f"part_{len(taken) + 1}" if not is_value_name(name) else f"{name}_{len(taken) + 1}"

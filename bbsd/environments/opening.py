@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import sys
-from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from bbsd.environments.calling import calling
 from bbsd.environments.consent import Consent
-from bbsd.environments.failures import EnvironmentFailed, EnvironmentHangs, failure_text
 from bbsd.environments.gymnasium_lanes import GymnasiumLanes
 from bbsd.environments.importing import searching
 from bbsd.environments.lanes import Dealings, checked_start
-from bbsd.environments.making import UnfitError, making_of, making_of_class
-from bbsd.environments.matching import Misfit
+from bbsd.environments.making import making_of, making_of_class
+from bbsd.environments.misfits import Misfit, UnfitError
 from bbsd.environments.origin import origin_of
 from bbsd.environments.pettingzoo_lanes import PettingZooLanes
-from bbsd.environments.reading import WrongObservationError, reader_of
+from bbsd.environments.reading import reader_of
 from bbsd.environments.sending import sender_of
 from bbsd.environments.spaces import Space, space_of, space_of_value
-from bbsd.environments.time_limit import DEFAULT_LIMIT, CallTooLongError, CallWatch
+from bbsd.environments.time_limit import DEFAULT_LIMIT, CallWatch
 from bbsd.errors import UsageError, escape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from bbsd.environments.importing import Announce
     from bbsd.environments.lanes import Lanes
@@ -133,7 +131,7 @@ def open_environment(recipe: Recipe, announce: Announce | None = None) -> Opened
             making = making_of_class(recipe.given, outside)
         else:
             making = making_of(outside, recipe.consent, announce)
-        with _calling(outside.target, recipe.seconds):
+        with calling(lambda: f"{outside.target}, when it was made,", CallWatch(recipe.seconds)):
             environment = _made(making, outside)
             agents = tuple(map(str, getattr(environment, "possible_agents", ())))
             _require_robots(recipe.robots, agents, outside)
@@ -145,7 +143,7 @@ def open_environment(recipe: Recipe, announce: Announce | None = None) -> Opened
 def _made(making: Making, outside: Outside) -> Any:  # noqa: ANN401 - whatever environment
     try:
         return making.make()
-    except (Exception, SystemExit) as error:
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - all that somebody else's code may raise
         said = escape(" ".join(str(error).split()))
         message = f"{outside.target} cannot be made with these arguments: {type(error).__name__}: {said}"
         key = "with" if outside.arguments else outside.kind
@@ -186,19 +184,3 @@ def _require_alike(spaces: dict[str, Space], what: str) -> None:
         if other != space:
             message = f"{agent} {what} {other}, and {first} {space}: one design cannot serve both"
             raise UnfitError(Misfit("BB124", ("environment", "pettingzoo"), message))
-
-
-@contextmanager
-def _calling(name: str, seconds: float) -> Iterator[None]:
-    """Let an environment be made and looked at inside, with its errors in words."""
-    try:
-        with redirect_stdout(sys.stderr), CallWatch(seconds):
-            yield
-    except (UsageError, UnfitError, KeyboardInterrupt):
-        raise
-    except WrongObservationError as error:
-        raise EnvironmentFailed(f"{name}: {error}") from None
-    except CallTooLongError:
-        raise EnvironmentHangs(f"{name}: it was not made within {seconds:g} s") from None
-    except (Exception, SystemExit) as error:
-        raise EnvironmentFailed(failure_text(f"{name}, when it was made,", error)) from None

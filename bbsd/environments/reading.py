@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Floats = npt.NDArray[np.float64]
 
-Reader = Callable[[Any], Sequence[float]]
+Reader = Callable[[Any], "Sequence[float] | Floats"]
 """Returns the numbers of the used fields, in their order; raises WrongObservationError."""
 
 MOST_TABULATED = 100_000
@@ -37,7 +37,7 @@ def reader_of(fields: Sequence[Field], space: Space) -> Reader:
     return _list_reader(space, _used(fields), len(fields))
 
 
-def flat(space: Space) -> Callable[[Any], Sequence[float]]:
+def flat(space: Space) -> Reader:
     """Return what lists all numbers of an observation in C order."""
     match space:
         case Mapping(parts):

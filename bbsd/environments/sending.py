@@ -100,7 +100,9 @@ def _is_between(value: float, low: float, high: float, dtype: str) -> bool:
     if _is_whole(dtype):
         return low <= value <= high and value == int(value)
     with np.errstate(over="ignore"):
-        sent = float(np.float64(value).astype(dtype))  # a bound of 0.1 is another number in float32, and so is 0.1
+        sent = float(
+            np.float64(value).astype(dtype)
+        )  # a bound of 0.1 is another number in float32, and so is 0.1
     return isfinite(sent) and low <= sent <= high
 
 

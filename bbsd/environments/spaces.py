@@ -103,7 +103,9 @@ def space_of(space: Any) -> Space:  # noqa: ANN401 - whatever an environment cal
     if "Discrete" in kinds:
         return Discrete(int(space.n), int(getattr(space, "start", 0)))
     if "Box" in kinds:
-        low, high = (tuple(np.asarray(bound, np.float64).ravel().tolist()) for bound in (space.low, space.high))
+        low, high = (
+            tuple(np.asarray(bound, np.float64).ravel().tolist()) for bound in (space.low, space.high)
+        )
         return Box(tuple(map(int, space.shape)), low, high, np.dtype(space.dtype).name)
     if "MultiDiscrete" in kinds:
         ns = np.asarray(space.nvec)
@@ -129,7 +131,11 @@ def space_of_value(value: Any) -> Space:  # noqa: ANN401 - whatever an environme
     except ValueError:  # arrays of several shapes
         is_numbers = False
     if not is_numbers:
-        return Several(tuple(map(space_of_value, value))) if isinstance(value, tuple) else Other(type(value).__name__)
+        return (
+            Several(tuple(map(space_of_value, value)))
+            if isinstance(value, tuple)
+            else Other(type(value).__name__)
+        )
     unbounded = (np.inf,) * array.size
     return Box(array.shape, tuple(-bound for bound in unbounded), unbounded, array.dtype.name)
 
