@@ -18,7 +18,7 @@ from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
 from bbsd.compiler.stepped import SteppedRollout, phase_names, phases_of
 from bbsd.compiler.steps import Steps
 from bbsd.compiler.writing.source import module_source
-from bbsd.environments.stepping import EnvironmentNotImported
+from bbsd.environments.stepping import not_imported
 from bbsd.kernel.memory import zeros
 from bbsd.kernel.modules import load_kernel
 
@@ -111,7 +111,7 @@ class Kernels:
     def _opened(self) -> Stepper:
         """What steps the environment. Raises EnvironmentNotImported."""
         if self.stepper is None:
-            raise EnvironmentNotImported(str(getattr(self.meaning.spec.environment, "outside", None)))
+            raise not_imported(self.meaning.spec.environment.outside)
         return self.stepper()
 
     @cached_property

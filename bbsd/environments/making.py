@@ -8,16 +8,16 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from bbsd.environments.importing import NoSuchModule, imported
-from bbsd.environments.misfits import Misfit, UnfitError
+from bbsd.environments.importing.modules import NoSuchModule, imported
+from bbsd.environments.spaces.misfits import Misfit, UnfitError
 from bbsd.errors import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
     from types import ModuleType
 
-    from bbsd.environments.consent import Consent
-    from bbsd.environments.importing import Announce
+    from bbsd.environments.importing.consent import Consent
+    from bbsd.environments.importing.modules import Announce
     from bbsd.language.outside import Outside
 
 VERSION = re.compile(r"(?P<name>.+?)(?P<mark>-v|_v)(?P<number>\d+)")

@@ -5,28 +5,29 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from bbsd.environments.calling import calling
-from bbsd.environments.consent import Consent
-from bbsd.environments.gymnasium_lanes import GymnasiumLanes
-from bbsd.environments.importing import searching
-from bbsd.environments.lanes import Dealings, checked_start
+from bbsd.environments.importing.consent import Consent
+from bbsd.environments.importing.modules import searching
+from bbsd.environments.lanes.calling import calling
+from bbsd.environments.lanes.common import Dealings, checked_start
+from bbsd.environments.lanes.gymnasium import GymnasiumLanes
+from bbsd.environments.lanes.pettingzoo import PettingZooLanes
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT, CallWatch
 from bbsd.environments.making import making_of, making_of_class
-from bbsd.environments.misfits import Misfit, UnfitError
-from bbsd.environments.origin import origin_of
-from bbsd.environments.pettingzoo_lanes import PettingZooLanes
-from bbsd.environments.reading import reader_of
-from bbsd.environments.sending import sender_of
-from bbsd.environments.spaces import Space, space_of, space_of_value
-from bbsd.environments.time_limit import DEFAULT_LIMIT, CallWatch
+from bbsd.environments.origin import importable, origin_of
+from bbsd.environments.spaces.kinds import Space, space_of, space_of_value
+from bbsd.environments.spaces.misfits import Misfit, UnfitError
+from bbsd.environments.spaces.reading import reader_of
+from bbsd.environments.spaces.sending import sender_of
 from bbsd.errors import UsageError, escape
+from bbsd.language.outside import Field, Outside
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bbsd.environments.importing import Announce
-    from bbsd.environments.lanes import Lanes
+    from bbsd.environments.importing.modules import Announce
+    from bbsd.environments.lanes.common import Lanes
     from bbsd.environments.making import Making
-    from bbsd.language.outside import Outside
+    from bbsd.text import Data
 
 
 class OtherEnvironment(UsageError):
@@ -47,6 +48,41 @@ class Recipe:
     seconds: float = DEFAULT_LIMIT
     given: Callable[..., Any] | None = None
     """A class that the caller has in hand; nothing is imported then."""
+
+    def plain(self) -> dict[str, Data]:
+        """Return the recipe as plain data, from which `recipe_of` makes it again in another process.
+
+        Raises NotPortable where a class is given that no other process can import.
+        """
+        outside, modules, folders = self.outside, self.consent.modules, self.consent.folders
+        target = outside.target
+        if self.given is not None:
+            target, folder = importable(self.given)
+            modules, folders = (target.partition(":")[0],), (folder,)
+        return {
+            "kind": outside.kind,
+            "target": target,
+            "arguments": dict(outside.arguments),
+            "fields": [
+                [each.name, each.size, None if each.path is None else [*each.path]] for each in outside.fields
+            ],
+            "actions": [*outside.actions],
+            "robots": self.robots,
+            "modules": [*modules],
+            "folders": [*folders],
+            "closed": [*self.closed],
+            "seconds": self.seconds,
+        }
+
+
+def recipe_of(plain: Any) -> Recipe:  # noqa: ANN401 - what `Recipe.plain` returned
+    """Return the recipe that is written as plain data: by this process's parent, never by a file."""
+    fields = tuple(
+        Field(name, size, None if path is None else tuple(path)) for name, size, path in plain["fields"]
+    )
+    outside = Outside(plain["kind"], plain["target"], plain["arguments"], fields, tuple(plain["actions"]))
+    allowed = Consent(tuple(plain["modules"]), tuple(plain["folders"]))
+    return Recipe(outside, plain["robots"], allowed, tuple(plain["closed"]), plain["seconds"])
 
 
 @dataclass(frozen=True)
@@ -88,7 +124,7 @@ class Opened:
         )
         return PettingZooLanes(dealings) if self.agents else GymnasiumLanes(dealings)
 
-    def plain(self) -> dict[str, Any]:
+    def plain(self) -> dict[str, str]:
         """Return what identifies the environment, as `run.json` holds it."""
         return {
             "target": self.name,
@@ -99,13 +135,16 @@ class Opened:
             **({} if self.making.most_steps is None else {"step limit": str(self.making.most_steps)}),
         }
 
-    def __reduce__(self) -> tuple[Callable[..., Opened], tuple[Recipe, dict[str, Any]]]:
-        return _opened_again, (self.recipe, self.plain())
+    def __reduce__(self) -> tuple[Callable[..., Opened], tuple[dict[str, Data], dict[str, str]]]:
+        return opened_again, (self.recipe.plain(), self.plain())
 
 
-def _opened_again(recipe: Recipe, expected: dict[str, Any]) -> Opened:
-    """Open an environment in another process, by the consent that the recipe brings along."""
-    opened = open_environment(recipe)
+def opened_again(recipe: dict[str, Data], expected: dict[str, str]) -> Opened:
+    """Open an environment in another process, by the consent that its recipe brings along.
+
+    Raises OtherEnvironment where it is not the one that is expected.
+    """
+    opened = open_environment(recipe_of(recipe))
     found = opened.plain()
     different = [key for key in {**expected, **found} if expected.get(key) != found.get(key)]
     if different:

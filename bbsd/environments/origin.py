@@ -9,8 +9,17 @@ from importlib.metadata import PackageNotFoundError, packages_distributions, ver
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bbsd.errors import UsageError
+
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+
+class NotPortable(UsageError):
+    """A class that another process cannot import."""
+
+    advice = "put it into a module of its own and import it from there, or use one job"
+
 
 DIGITS = 16
 """Digits of a digest that are kept."""
@@ -47,3 +56,21 @@ def source_digest(environment: Any) -> str:  # noqa: ANN401 - whatever environme
         except (OSError, TypeError):
             return "unknown"
     return sha256(content).hexdigest()[:DIGITS]
+
+
+def importable(kind: Callable[..., Any]) -> tuple[str, str]:
+    """Return a class as module:Class, and the folder in which its top module is found.
+
+    Raises NotPortable for a class that is in no module's file, or inside of something else.
+    """
+    name, module = getattr(kind, "__qualname__", ""), getattr(kind, "__module__", "")
+    home = sys.modules.get(module)
+    file = getattr(home, "__file__", None)
+    if file is None or module == "__main__" or getattr(home, name, None) is not kind:
+        raise NotPortable(f"the class {name} of {module} cannot be imported by another process")
+    return f"{module}:{name}", str(Path(file).resolve().parents[_depth(module, file)])
+
+
+def _depth(module: str, file: str) -> int:
+    """Return how many folders the file of a module lies below the one in which its top module is found."""
+    return module.count(".") + (Path(file).stem == "__init__")

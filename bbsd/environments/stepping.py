@@ -12,12 +12,18 @@ if TYPE_CHECKING:
 
 
 class EnvironmentNotImported(UsageError):
-    """Episodes of an environment that is stepped in Python, and was not imported."""
+    """Episodes of an environment that is stepped in Python, asked of what imports nothing for a spec."""
 
-    advice = "`bbsd design` and `bbsd evaluate` import it where --allow-import NAME names it"
+    advice = (
+        "only bbsd design, evaluate and spaces import what a spec names, each with --allow-import NAME; "
+        "in Python: design, evaluate, trace and price with allow_import"
+    )
 
-    def __init__(self, target: str) -> None:
-        super().__init__(f"episodes need the environment {target}, and no one has allowed to import it")
+
+def not_imported(outside: object) -> EnvironmentNotImported:
+    """Return the error of what is asked for episodes of an environment (a `language.outside.Outside`) it has not."""
+    target = getattr(outside, "target", outside)
+    return EnvironmentNotImported(f"episodes need the environment {target}, which was not imported")
 
 
 class Stepper(Protocol):

@@ -5,10 +5,7 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.environments.misfits import Misfit, Path
-from bbsd.environments.naming import observation_text
-from bbsd.environments.sending import n_sent, taken_text, takes
-from bbsd.environments.spaces import (
+from bbsd.environments.spaces.kinds import (
     Box,
     Discrete,
     Mapping,
@@ -20,6 +17,9 @@ from bbsd.environments.spaces import (
     leaves,
     path_text,
 )
+from bbsd.environments.spaces.misfits import Misfit, Path
+from bbsd.environments.spaces.naming import observation_text
+from bbsd.environments.spaces.sending import n_sent, taken_text, takes
 from bbsd.errors import did_you_mean
 
 if TYPE_CHECKING:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.environments.spaces import Box, Discrete, MultiDiscrete, count, leaves, path_text
+from bbsd.environments.spaces.kinds import Box, Discrete, MultiDiscrete, count, leaves, path_text
 from bbsd.language.field_types import is_value_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from bbsd.environments.spaces import Space
+    from bbsd.environments.spaces.kinds import Space
 
 KNOWN: Mapping[str, tuple[str, ...]] = {
     "Acrobot": ("cos_1", "sin_1", "cos_2", "sin_2", "speed_1", "speed_2"),

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.environments.lanes import Lanes, checked_results, checked_start
-from bbsd.environments.reading import WrongObservationError
+from bbsd.environments.lanes.common import Lanes, checked_results, checked_start
+from bbsd.environments.spaces.reading import WrongObservationError
 
 if TYPE_CHECKING:
-    from bbsd.environments.lanes import Floats
+    from bbsd.environments.lanes.common import Floats
 
 
 class PettingZooLanes(Lanes):

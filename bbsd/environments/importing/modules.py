@@ -15,15 +15,15 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bbsd.environments.consent import INSTALLED_BY
 from bbsd.environments.failures import EnvironmentFailed, failure_text
+from bbsd.environments.importing.consent import INSTALLED_BY
 from bbsd.errors import UsageError, escape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from types import ModuleType
 
-    from bbsd.environments.consent import Consent
+    from bbsd.environments.importing.consent import Consent
 
     Announce = Callable[[str, str], None]
     """Called with the name of a module and its file before it is imported."""

@@ -6,6 +6,8 @@ its import; nor can a file beside it, an argument under `with`, a folder of a ru
 
 from __future__ import annotations
 
+import errno
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +17,6 @@ from bbsd.errors import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    from bbsd.language.outside import Outside
 
 MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*", re.ASCII)
 INSTALLED_BY = {"gymnasium": 'pip install "bbsd[gymnasium]"', "pettingzoo": 'pip install "bbsd[pettingzoo]"'}
@@ -31,20 +31,6 @@ class NotAModule(UsageError):
 
 class ImportNotAllowed(UsageError):
     """A module that a spec's environment needs, and that nobody allowed to import."""
-
-
-class EnvironmentNotImported(UsageError):
-    """Episodes of a spec whose world is stepped in Python, asked of what imports nothing for a spec."""
-
-    advice = "design, evaluate and spaces import it, with --allow-import; in Python, allow_import=[...]"
-
-
-def not_imported(outside: Outside) -> EnvironmentNotImported:
-    """Return the error of a command that does not import the environment of a spec."""
-    return EnvironmentNotImported(
-        f"the world of this spec is {outside.kind}: {outside.target}, which runs in Python, "
-        "and no episodes can run here, since this imports nothing for a spec"
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +74,5 @@ def consent(modules: Iterable[str], folders: Iterable[str | Path] = ()) -> Conse
 def _folder(folder: str | Path) -> str:
     path = Path(folder).resolve()
     if not path.is_dir():
-        import errno
-        import os
-
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(folder))
     return str(path)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.environments.lanes import Lanes, checked_results, checked_start
+from bbsd.environments.lanes.common import Lanes, checked_results, checked_start
 
 if TYPE_CHECKING:
-    from bbsd.environments.lanes import Floats
+    from bbsd.environments.lanes.common import Floats
 
 
 class GymnasiumLanes(Lanes):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bbsd.environments.calling import calling
-from bbsd.environments.reading import WrongObservationError
-from bbsd.environments.time_limit import DEFAULT_LIMIT, CallWatch
+from bbsd.environments.lanes.calling import calling
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT, CallWatch
+from bbsd.environments.spaces.reading import WrongObservationError
 from bbsd.kernel.streams import fold, name_word
 from bbsd.stopping import raise_if_stopped
 
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from bbsd.environments.reading import Reader
-    from bbsd.environments.sending import Sender
+    from bbsd.environments.spaces.reading import Reader
+    from bbsd.environments.spaces.sending import Sender
 
     Integers = NDArray[np.int64]
     Keys = NDArray[np.uint64]

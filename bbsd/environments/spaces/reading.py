@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bbsd.environments.spaces import Box, Discrete, Mapping, MultiDiscrete, Several
+from bbsd.environments.spaces.kinds import Box, Discrete, Mapping, MultiDiscrete, Several
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from bbsd.environments.spaces import Space
+    from bbsd.environments.spaces.kinds import Space
     from bbsd.language.outside import Field, ObservationPath
 
     Floats = npt.NDArray[np.float64]
@@ -34,7 +34,7 @@ def reader_of(fields: Sequence[Field], space: Space) -> Reader:
         return _paths_reader(fields, space)
     if any(field.size is not None for field in fields) and isinstance(space, Discrete):
         return _digits_reader([field.size or 1 for field in fields], space, _used(fields))
-    return _list_reader(space, _used(fields), len(fields))
+    return _list_reader(space, _used(fields), [field.size for field in fields])
 
 
 def flat(space: Space) -> Reader:
@@ -75,16 +75,20 @@ def _array(value: object, shape: tuple[int, ...]) -> Floats:
     return array.ravel()
 
 
-def _list_reader(space: Space, used: list[int] | None, n_fields: int) -> Reader:
+def _list_reader(space: Space, used: list[int] | None, sizes: Sequence[int | None]) -> Reader:
     read_all = flat(space)
-    if used is None:
+    if used is None and not any(sizes):
         return read_all
+    sized = [(index, size) for index, size in enumerate(sizes) if size is not None]
 
     def read(value: object) -> Sequence[float]:
         numbers = read_all(value)
-        if len(numbers) != n_fields:
-            raise WrongObservationError(f"an observation has {len(numbers)} numbers, not {n_fields}")
-        return [numbers[index] for index in used]
+        for index, size in sized:
+            if numbers[index] not in range(size):
+                raise WrongObservationError(
+                    f"number {index + 1} of an observation is {numbers[index]:g}, not a whole number below {size}"
+                )
+        return [numbers[index] for index in (range(len(sizes)) if used is None else used)]
 
     return read
 

@@ -7,16 +7,16 @@ from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING
 
 from bbsd.environments.failures import ActionRefused, EnvironmentFailed, EnvironmentHangs, failure_text
-from bbsd.environments.misfits import UnfitError
-from bbsd.environments.reading import WrongObservationError
-from bbsd.environments.sending import WrongValueError
-from bbsd.environments.time_limit import CallTooLongError
+from bbsd.environments.lanes.time_limit import CallTooLongError
+from bbsd.environments.spaces.misfits import UnfitError
+from bbsd.environments.spaces.reading import WrongObservationError
+from bbsd.environments.spaces.sending import WrongValueError
 from bbsd.errors import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from bbsd.environments.time_limit import CallWatch
+    from bbsd.environments.lanes.time_limit import CallWatch
 
 
 @contextmanager

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bbsd.environments.spaces import Box, Discrete, MultiDiscrete, Several
+from bbsd.environments.spaces.kinds import Box, Discrete, MultiDiscrete, Several
 
 if TYPE_CHECKING:
-    from bbsd.environments.spaces import Space
+    from bbsd.environments.spaces.kinds import Space
 
 Sender = Callable[[Sequence[float]], Any]
 """Returns the action that some values are, in the order of the spec's actions; raises WrongValueError."""

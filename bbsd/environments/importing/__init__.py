@@ -1,0 +1,1 @@
+"""What a user allowed to be imported, and how that is imported."""

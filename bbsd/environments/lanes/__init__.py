@@ -1,0 +1,1 @@
+"""Environments in the lanes of a kernel."""

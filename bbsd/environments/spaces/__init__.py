@@ -1,0 +1,1 @@
+"""What an environment shows and takes, and how a spec names it."""
