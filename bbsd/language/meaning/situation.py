@@ -37,7 +37,7 @@ def modules_in_a_situation(meaning: Meaning, given: Collection[str]) -> tuple[Mo
     These are the sensors named in `given`, and all that draw or look at the step before. The nodes are of a graph of
     their own.
     """
-    names = _names(meaning)
+    names = names_of(meaning)
     first = starting_values(names)
     beginning, now = Moment(names, first, names.graph.number(0), starting=True), slots_read(first, names)
     sensed = stored_sensors(beginning, {*given, *uncertain_sensors(meaning.spec)})
@@ -54,7 +54,7 @@ def modules_in_a_situation(meaning: Meaning, given: Collection[str]) -> tuple[Mo
 
 def definitions_at_the_start(meaning: Meaning) -> dict[Slot, Node]:
     """Return definitions without parameters as nodes that read what is stored at the start, where before(e) is e."""
-    names = _names(meaning)
+    names = names_of(meaning)
     first = starting_values(names)
     beginning = Moment(names, first, names.graph.number(0), starting=True)
     sensed = decision_at(slots_read(first, names), beginning, names).sensed
@@ -78,7 +78,7 @@ def uncertain_sensors(spec: Spec) -> set[str]:
     return uncertain
 
 
-def _names(meaning: Meaning) -> Names:
+def names_of(meaning: Meaning) -> Names:
     """Return what a spec's names stand for, in a fork of its graph; it has no mistakes, so that none are found."""
     findings = Findings()
     definitions = read_definitions(meaning.spec.environment.definitions, findings)

@@ -1,0 +1,145 @@
+"""Sensors as they follow from what is stored: world, state, other sensors, and what was before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from bbsd.architecture.needs.naming import before
+from bbsd.expression.graph import Graph, Level
+from bbsd.language.field_types import Expression, signature
+from bbsd.language.meaning.episode import slots_read, starting_values, stored_sensors
+from bbsd.language.meaning.moments import Moment, Sensed
+from bbsd.language.meaning.names import Names, scalars_by_slot
+from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
+from bbsd.language.meaning.partitions import is_partition
+from bbsd.language.meaning.situation import names_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Slot
+    from bbsd.expression.scope import Value
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.models import PartitionText, Spec
+
+    IsGiven = Callable[[str, Mapping[Slot, Node]], bool]
+    """Whether a sensor must be given, by its name and the nodes that compute it for each robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sensors:
+    """The nodes of each sensor's values (of a partition: of its cell), in a graph of their own.
+
+    They read slots of world, state and of the sensors in `given`; where they say `before`, slots that keep what these
+    were at the decision before. In the first step there was none, and `before(e)` is e. Sensors read the step
+    that is to come, less one.
+    """
+
+    graph: Graph
+    nodes: Mapping[Slot, Node]
+    given: frozenset[str]
+
+
+def sensors_of(meaning: Meaning, is_given: IsGiven) -> Sensors:
+    """Return the sensors of a decision, those that must be given as leaves that read their slots."""
+    names = names_of(meaning)
+    names.graph.bounded = False
+    return _Resolver(names, is_given).resolved()
+
+
+@dataclass(slots=True)
+class _Resolver:
+    """Elaborates one sensor after the other, each after those that it uses."""
+
+    names: Names
+    is_given: IsGiven
+    nodes: dict[Slot, Node] = field(default_factory=dict)
+    given: set[str] = field(default_factory=set)
+
+    def resolved(self) -> Sensors:
+        names, graph = self.names, self.names.graph
+        first = starting_values(names)
+        now = slots_read(first, names)
+        start = Moment(names, first, graph.number(0), starting=True)
+        stored = stored_sensors(start, names.spec.environment.sensors)
+        earlier = graph.apply("-", names.step, graph.number(1))
+        scope = Moment(
+            names,
+            {name: tuple(map(self._before, nodes)) for name, nodes in now.items()},
+            earlier,
+            sensed=Sensed({key: self._value_before(value) for key, value in stored.values.items()}),
+        ).scope
+        later = Moment(names, now, earlier, before=scope)
+        first_time = Moment(names, now, earlier, starting=True)
+        for name in sensor_order(names.spec):
+            own = {
+                robot: self._combined(_elaborated(later, name, robot), _elaborated(first_time, name, robot))
+                for robot in names.robots
+            }
+            if self.is_given(name, {slot: node for nodes in own.values() for slot, node in nodes.items()}):
+                self.given.add(name)
+                own = {robot: _by_slot(stored, name, robot) for robot in names.robots}
+            for robot, nodes in own.items():
+                self.nodes.update(nodes)
+                for moment in (later, first_time):
+                    _set(moment.sensed, name, robot, [*nodes.values()])
+        return Sensors(graph, self.nodes, frozenset(self.given))
+
+    def _combined(self, later: Mapping[Slot, Node], first: Mapping[Slot, Node]) -> dict[Slot, Node]:
+        """Return the values of a sensor in any step, given those in later steps and in the first one."""
+        graph = self.names.graph
+        is_first = graph.apply("==", self.names.step, graph.number(1))
+        return {slot: graph.apply("select", is_first, first[slot], node) for slot, node in later.items()}
+
+    def _before(self, leaf: Node) -> Node:
+        return self.names.graph.leaf("slot", before(leaf.slot), leaf.kind, Level.LANE)
+
+    def _value_before(self, value: Value) -> Value:
+        return tuple(map(self._value_before, value)) if isinstance(value, tuple) else self._before(value)
+
+
+def _elaborated(moment: Moment, name: str, robot: int) -> dict[Slot, Node]:
+    """Return the scalars of a robot's sensor at a moment, of a partition the index of its cell."""
+    is_cut = is_partition(moment.names.spec.environment.sensors[name])
+    (moment.partition if is_cut else moment.value)(name, robot)
+    return _by_slot(moment.sensed, name, robot)
+
+
+def _set(sensed: Sensed, name: str, robot: int, nodes: Sequence[Node]) -> None:
+    """Let what uses a sensor use these nodes of its scalars."""
+    partition = sensed.partitions.get((name, robot))
+    if partition is not None:
+        sensed.partitions[name, robot] = replace(partition, index=nodes[0])
+    else:
+        sensed.values[name, robot] = _refilled(sensed.values[name, robot], iter(nodes))
+
+
+def _by_slot(sensed: Sensed, name: str, robot: int) -> dict[Slot, Node]:
+    partition = sensed.partitions.get((name, robot))
+    value = sensed.values[name, robot] if partition is None else partition.index
+    return scalars_by_slot(value, name, robot)
+
+
+def _refilled(shape: Value, nodes: Iterator[Node]) -> Value:
+    """Return a value of the same shape made of other nodes."""
+    return tuple(_refilled(item, nodes) for item in shape) if isinstance(shape, tuple) else next(nodes)
+
+
+def sensor_order(spec: Spec) -> list[str]:
+    """Return the sensors, each after those that it uses."""
+    environment = spec.environment
+    definitions = {signature(key)[0]: expression for key, expression in environment.definitions.items()}
+    uses = {name: _names_in(sensor, definitions) for name, sensor in environment.sensors.items()}
+    return dependency_order(uses_among(uses))
+
+
+def _names_in(sensor: PartitionText, definitions: Mapping[str, Expression]) -> frozenset[str]:
+    """Return the names that a sensor uses, also within definitions."""
+    waiting, seen = [sensor] if isinstance(sensor, Expression) else [*sensor.values()], set[str]()
+    while waiting:
+        used = names_used_in(waiting) - seen
+        seen |= used
+        waiting = [definitions[name] for name in sorted(used & definitions.keys())]
+    return frozenset(seen)
