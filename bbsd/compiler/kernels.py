@@ -73,7 +73,7 @@ class Kernels:
     @property
     def is_stepped(self) -> bool:
         """Whether the environment is stepped in Python, between the phases of a kernel."""
-        return self.stepper is not None or bool(getattr(self.meaning.episode, "outside", ()))
+        return self.stepper is not None or bool(self.meaning.episode.outside)
 
     @cached_property
     def _batches(self) -> Any:  # noqa: ANN401 - a generated module

@@ -55,8 +55,9 @@ class Between(NamedTuple):
 def new_between(meaning: Meaning, lanes: int) -> Between:
     """Return what a batch of so many lanes begins with."""
     robots = meaning.spec.environment.robots
-    rows = (len(getattr(meaning.episode, part, ())) for part in ("outside", "sent"))
-    outside, sent = (np.zeros((n, lanes)) for n in rows)
+    outside, sent = (
+        np.zeros((len(slots), lanes)) for slots in (meaning.episode.outside, meaning.episode.sent)
+    )
     return Between(outside, sent, np.zeros((robots, lanes), np.int64), np.ones(lanes))
 
 

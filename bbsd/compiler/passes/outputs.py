@@ -18,7 +18,8 @@ def credit_outputs(episode: Episode) -> list[Node]:
     """Return the nodes of a step that returns and credit depend on."""
     decided = [node for module in episode.modules for node in module.nodes]
     earned = [node for nodes in episode.reward.values() for node in nodes]
-    return [*decided, *earned, *([] if episode.ends is None else [episode.ends])]
+    sent = [episode.acted[slot] for slot in episode.sent]
+    return [*decided, *sent, *earned, *([] if episode.ends is None else [episode.ends])]
 
 
 def with_slots_read(outputs: Iterable[Node], episode: Episode) -> list[Node]:

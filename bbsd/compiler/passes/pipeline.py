@@ -58,7 +58,8 @@ def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...
             "tangents",
             _with_tangents,
             frozenset({Detail.CREDIT}),
-            "An arctangent that is only compared need not be computed. Where that is not proven, TERMS computes it.",
+            "An arctangent that is only compared need not be computed. Where that is not proven, TERMS computes it; "
+            "what is stepped in Python takes so long that no episode may have to run again for it.",
         ),
     )
 
@@ -79,5 +80,7 @@ def run_passes(
 
 
 def _with_tangents(program: Program) -> Program:
+    if program.meaning.episode.outside:
+        return program
     episode, to_prove = compare_tangents(program.meaning.episode)
     return Program(replace(program.meaning, episode=episode), (*program.to_prove, *to_prove))

@@ -76,7 +76,7 @@ class Parts:
         """Return the lines that decide a step and keep the choices, and what the robots send outside."""
         function, arbitration = self.function, self.arbitration
         episode = function.episode
-        sent = [episode.acted[slot] for slot in function.sent]
+        sent = [episode.acted[slot] for slot in episode.sent]
         outputs = [*arbitration.sensed, *sent, *episode.choices]
         emitter = emitter_of(function, outputs, arbitration.stage)
         deciding = emitter.blocks.stage(arbitration.stage)

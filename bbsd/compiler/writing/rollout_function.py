@@ -99,9 +99,7 @@ class RolloutFunction:
     def read(self, array: str, kind: Kind = Kind.NUMBER, index: Text | None = None) -> Text:
         """Return an array's value of the present lane and robot, or at an index; truths are kept as 0 and 1."""
         element = Text(self.at(array)) if index is None else Text(f"{array}[{index.source}]", uses=index.uses)
-        if kind is Kind.TRUTH:
-            return Text(f"{element.source} != 0.0", COMPARISON, element.uses)
-        return element
+        return _as_read(element, kind)
 
     def as_stored(self, text: Text, kind: Kind) -> Text:
         """Return a value as arrays keep it."""
@@ -195,11 +193,6 @@ class RolloutFunction:
         return self.call_of("select", infix(">", self.read(self.running), ZERO), text, otherwise)
 
     @property
-    def sent(self) -> tuple[Slot, ...]:
-        """What the robots send outside: rows of `sent`."""
-        return getattr(self.episode, "sent", ())
-
-    @property
     def first_stage(self) -> int:
         """The stage of a step in which the first loop over its robots stands."""
         return FIRST[Level.EACH if self.looped else Level.LANE]
@@ -223,12 +216,13 @@ class RolloutFunction:
             case "start":
                 return Text("float(key[lane])")
             case "outside":
-                return Text(f"outside[{self._outside_rows[node.slot]}, lane]")
+                element = f"outside[{self._outside_rows[node.slot]}, lane]"
+                return _as_read(Text(element), node.kind)
         return self._constant(node)
 
     @cached_property
     def _outside_rows(self) -> dict[Slot, int]:
-        return {slot: row for row, slot in enumerate(getattr(self.episode, "outside", ()))}
+        return {slot: row for row, slot in enumerate(self.episode.outside)}
 
     def _constant(self, node: Node) -> Text:
         if node.number not in self.call.names:
@@ -243,6 +237,11 @@ class RolloutFunction:
             for name, value in self.meaning.constants.values.items()
             for element in _elements(value)
         ]
+
+
+def _as_read(element: Text, kind: Kind) -> Text:
+    """Return an element of an array as the value that it holds: truths are kept as 0 and 1."""
+    return Text(f"{element.source} != 0.0", COMPARISON, element.uses) if kind is Kind.TRUTH else element
 
 
 def indent(lines: Iterable[str], depth: int) -> list[str]:
