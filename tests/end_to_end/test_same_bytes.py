@@ -96,10 +96,15 @@ def test_kernels_of_many_robots_have_the_syntax_trees_that_they_had(golden):
 
 
 def sources_of(path: Path, *overrides: str) -> list[tuple[Detail, str]]:
-    """The printed kernel of a spec at each detail; none of a spec that cannot be loaded by itself, or so."""
+    """The printed kernel of a spec at each detail; none of a spec that cannot be loaded by itself, or so.
+
+    Nor of one whose world is stepped in Python.
+    """
     try:
         problem = compile_meaning(bbsd.load(path, overrides=overrides).meaning)
     except SpecError:
+        return []
+    if problem.meaning.episode.outside:
         return []
     return [(detail, kernel_source(problem.meaning, problem.tables, LANES, (detail,))) for detail in DETAILS]
 

@@ -13,11 +13,12 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.expression.syntax.tree import Name, Span
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, what_sets
+from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, size_of_field, what_sets
 from bbsd.language.meaning.partitions import (
     MAX_CELLS,
     TRUTH_CELLS,
     Partition,
+    cells_of_numbers,
     elaborate_partition,
     is_partition,
 )
@@ -218,10 +219,16 @@ def _kind_by_form(sensor: PartitionText | None) -> Kind:
 
 
 def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, robot: int) -> Partition | None:
-    """Return the partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells."""
+    """Return the partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells.
+
+    What an environment in Python shows with a size has a cell for each of its values.
+    """
     names, environment = decision.names, decision.names.spec.environment
     if name in names.unusable:
         return None
+    if size := size_of_field(environment, name):
+        number = elaboration.number(Name(name, WHOLE), scope.at(path, robot))
+        return None if number.kind is Kind.UNKNOWN else cells_of_numbers(number, 0, size - 1, names.graph)
     if name in environment.sensors and is_partition(environment.sensors[name]):
         return decision.partition(name, robot)
     if not (

@@ -17,6 +17,7 @@ from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
 
 if TYPE_CHECKING:
+    from bbsd.expression.graph import Graph
     from bbsd.expression.scope import Path, Scope
     from bbsd.language.field_types import Expression
 
@@ -117,7 +118,11 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
             Span(tree.span.start, tree.span.length),
         )
         return None
-    graph = scope.graph
+    return cells_of_numbers(number, first, last, scope.graph)
+
+
+def cells_of_numbers(number: Node, first: int, last: int, graph: Graph) -> Partition:
+    """Return a cell for each whole number from the first to the last; what lies beyond goes to the nearest."""
     offset = graph.apply("-", number, graph.number(first)) if first else number
     return Partition(Numbers(first, last), graph.apply("clamp_index", offset, data=last - first))
 

@@ -21,6 +21,12 @@ def names_outside(environment: Environment) -> tuple[str, ...]:
     return environment.outside.names if environment.outside else ()
 
 
+def size_of_field(environment: Environment, name: str) -> int | None:
+    """Return the size of an observed field that has two values or more; None for other names."""
+    fields = environment.outside.fields if environment.outside else ()
+    return next((field.size for field in fields if field.name == name and (field.size or 0) > 1), None)
+
+
 def what_sets(name: str) -> str:
     """Return what a message says of a name that an environment in Python sets."""
     return f"{name} is {'what the environment rewards' if name == EARNED else 'an observation'}"
