@@ -24,6 +24,15 @@ class TargetName(StrEnum):
 
     C = "c"
     PYTHON = "python"
+    BTCPP = "btcpp"
+    PYTREES = "pytrees"
+
+
+class Leaves(StrEnum):
+    """What the leaves of a tree are."""
+
+    SCRIPT = "script"
+    CUSTOM = "custom"
 
 
 def export(
@@ -41,6 +50,12 @@ def export(
             "differs, or if the target is not on this machine.",
         ),
     ] = False,
+    leaves: Annotated[
+        Leaves,
+        typer.Option(
+            help="Of btcpp: scripts, which run as they are, or nodes of your own with a model for Groot2."
+        ),
+    ] = Leaves.SCRIPT,
     seed: Seed = 0,
     overrides: Overrides = None,
 ) -> None:
@@ -51,7 +66,9 @@ def export(
     """
     if out is not None:
         require_writable_file(out)
-    exported = bbsd.export(design, to.value, verify=verify, seed=seed, overrides=overrides or ())
+    exported = bbsd.export(
+        design, to.value, verify=verify, leaves=leaves.value, seed=seed, overrides=overrides or ()
+    )
     _write(exported, out)
     if verify:
         from bbsd.report.exports import verified_lines

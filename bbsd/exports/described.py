@@ -10,7 +10,10 @@ from bbsd.language.meaning.tables.labels import Numbers
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
-    from bbsd.architecture.controller import Controller, Dimension, Layer
+    from collections.abc import Iterator, Sequence
+
+    from bbsd.architecture.controller import Action, Controller, Dimension, Layer
+    from bbsd.exports.names import Names
 
 
 def head_lines(controller: Controller) -> tuple[str, ...]:
@@ -63,3 +66,40 @@ def example_cells(controller: Controller) -> tuple[int, ...]:
         if command(controller, cells):
             return tuple(cells)
     return (0,) * len(controller.dimensions)
+
+
+def input_names(controller: Controller, names: Names) -> tuple[str, ...]:
+    """Return identifiers of the dimensions, in small letters."""
+    return tuple(names.new(input_text(each), lower=True) for each in controller.dimensions)
+
+
+def input_text(dimension: Dimension) -> str:
+    """Return what an identifier of a dimension is made of."""
+    return f"{dimension.name} excited" if dimension.is_condition else dimension.name
+
+
+def inputs_said(controller: Controller, names: Sequence[str]) -> Iterator[str]:
+    """Yield a line for each input: its identifier, its cells by number, with their names where they have some."""
+    for dimension, name in zip(controller.dimensions, names, strict=True):
+        yield f"  {name}: {numbered_cells(dimension)}"
+
+
+def numbered_cells(dimension: Dimension) -> str:
+    """Return the cells of a dimension by number, each with its name where they have names, and how they follow."""
+    if not has_named_cells(dimension):
+        return cells_text(dimension)
+    named = ", ".join(f"{index} {label}" for index, label in enumerate(dimension.cells))
+    return f"{named}; {cells_text(dimension)}"
+
+
+def actions_said(controller: Controller) -> Iterator[str]:
+    """Yield a line for each number of an action: its name, its behavior and what it sets."""
+    yield "action:"
+    yield "  0: nobody controls, commands stay as they are"
+    for number, action in enumerate(controller.actions, 1):
+        yield f"  {number}: {action.name} of {action.behavior}, sets {sets_text(action)}"
+
+
+def sets_text(action: Action) -> str:
+    """Return what an action sets, as the design writes it."""
+    return "; ".join(f"{name}: {value}" for name, value in action.sets.items()) or "nothing"

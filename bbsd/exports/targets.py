@@ -5,9 +5,11 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.exports import c, python
+from bbsd.exports import btcpp, c, python, pytrees
+from bbsd.exports.verification.behaviortree import run_btcpp
 from bbsd.exports.verification.compilers import run_gcc
 from bbsd.exports.verification.interpreters import run_cpython, run_micropython
+from bbsd.exports.verification.pytrees import run_pytrees
 from bbsd.exports.verification.tools import Runner
 
 if TYPE_CHECKING:
@@ -31,6 +33,16 @@ TARGETS: Mapping[str, Target] = MappingProxyType(
             "a Python module without dependencies, also for MicroPython",
             python.write,
             (Runner("python", run_cpython), Runner("micropython", run_micropython, needed=False)),
+        ),
+        "btcpp": Target(
+            "a tree of BehaviorTree.CPP 4 in XML, which Groot2 shows",
+            btcpp.write,
+            (Runner("behaviortreepy", run_btcpp),),
+        ),
+        "pytrees": Target(
+            "a Python module that builds a tree of py_trees",
+            pytrees.write,
+            (Runner("py_trees", run_pytrees),),
         ),
     }
 )
