@@ -90,6 +90,11 @@ class Environment(Part):
     )
 
     @property
+    def of_each_robot(self) -> tuple[str, ...]:
+        """The names of what each robot has from step to step: its state, and what an environment in Python gives it."""
+        return (*self.state, *(self.outside.names if self.outside else ()))
+
+    @property
     def outside(self) -> Outside | None:
         """The environment in Python that is the world; None where the world is the spec's own."""
         targets = {kind: getattr(self, kind) for kind in OUTSIDE_KINDS}

@@ -46,7 +46,7 @@ def described_situation(
     """
     environment = meaning.spec.environment
     require_robot(robot, environment.robots)
-    known = [*environment.world, *environment.state, *environment.sensors, STEP]
+    known = [*environment.world, *environment.of_each_robot, *environment.sensors, STEP]
     for name in given:
         if name not in known:
             raise BadSituation(_unknown(meaning, name, known))

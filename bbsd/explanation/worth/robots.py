@@ -36,7 +36,7 @@ def robots_alike(
         return ()
     traces = [trace(problem, architecture, int(key), generation) for key in keys[:TRACED]]
     steps = sum(len(each.steps) for each in traces)
-    state, has_view = list(problem.meaning.spec.environment.state), traces[0].scene is not None
+    state, has_view = list(problem.meaning.spec.environment.of_each_robot), traces[0].scene is not None
     return tuple(
         RobotsAlike(
             first,

@@ -70,8 +70,8 @@ def choice_of(trace: Trace, spec: Spec, in_view: Collection[str] = (), show: Seq
         return Choice(panels, REWARD in show, ())
     environment = spec.environment
     panels = tuple(_panel(name, slots, trace) for name, slots in values.items() if name not in in_view)
-    own = {*environment.state, *environment.world}
-    order = [*environment.state, *environment.world]
+    own = {*environment.of_each_robot, *environment.world}
+    order = [*environment.of_each_robot, *environment.world]
     chosen = [
         panel
         for panel in panels
@@ -101,7 +101,7 @@ def names_to_show(spec: Spec) -> list[str]:
     """Return all names that a figure can show: state, world, sensors, definitions without parameters, the reward."""
     environment = spec.environment
     definitions = [name for name in environment.definitions if "(" not in name]
-    return [*environment.state, *environment.world, *environment.sensors, *definitions, REWARD]
+    return [*environment.of_each_robot, *environment.world, *environment.sensors, *definitions, REWARD]
 
 
 def _by_name(trace: Trace) -> dict[str, dict[Slot, list[Value]]]:
