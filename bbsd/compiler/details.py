@@ -44,7 +44,7 @@ def traced_columns(meaning: Meaning) -> list[Column]:
     """Return the columns of a trace's record in their order."""
     episode, robots = meaning.episode, range(meaning.spec.environment.robots)
     return [
-        *(Column("slot", slot) for slot in episode.after),
+        *(Column("slot", slot) for slot in traced_slots(episode)),
         *(Column("definition", slot) for slot in traced_definitions(episode)),
         *(Column("choice", Slot("controlling", robot)) for robot in robots),
         *(Column("expectation", Slot("expectation", robot)) for robot in robots if episode.expects),
@@ -65,6 +65,11 @@ def first_decided_column(meaning: Meaning, robot: int) -> int:
     return len(traced_columns(meaning)) - (robots - robot) * n_decided
 
 
+def traced_slots(episode: Episode) -> dict[Slot, Node]:
+    """Return what a trace shows of all that is kept from step to step."""
+    return {slot: node for slot, node in episode.after.items() if not slot.is_hidden}
+
+
 def traced_definitions(episode: Episode) -> dict[Slot, Node]:
     """Return the definitions that a trace shows."""
     return {slot: node for slot, node in episode.definitions.items() if node.kind is not Kind.UNKNOWN}
@@ -72,4 +77,4 @@ def traced_definitions(episode: Episode) -> dict[Slot, Node]:
 
 def checked_slots(episode: Episode) -> list[Slot]:
     """Return the slots of which a detailed rollout counts the steps with a value that is not finite."""
-    return [slot for slot, node in episode.after.items() if node.kind is Kind.NUMBER]
+    return [slot for slot, node in traced_slots(episode).items() if node.kind is Kind.NUMBER]

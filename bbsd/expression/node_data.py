@@ -25,6 +25,10 @@ class Literal(NamedTuple):
     """Tells apart values that Python calls equal: both zeros, numbers from truths and cells."""
 
 
+HIDDEN = "_"
+"""How the names of slots begin that are not the spec's own: no name of a spec begins so."""
+
+
 class Slot(NamedTuple):
     """A value that is kept from one step to the next: a name, the robot (None: the world's), the place in a list."""
 
@@ -36,6 +40,11 @@ class Slot(NamedTuple):
     def variable(self) -> Variable:
         """The name and the place, whichever robot's."""
         return self.name, self.place
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether the value is no one's of the spec, so that no trace shows it."""
+        return self.name.startswith(HIDDEN)
 
     def text(self, robots: int) -> str:
         """Return what people call the slot: `height_0` with several robots, `sonar_3` for an element."""

@@ -7,7 +7,7 @@ from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.details import IN_DETAIL, Detail, checked_slots, traced_definitions
+from bbsd.compiler.details import IN_DETAIL, Detail, checked_slots, traced_definitions, traced_slots
 from bbsd.compiler.writing.looping import FIRST_ROBOT
 from bbsd.compiler.writing.precedence import Text, infix, join, name_text, sum_of, times
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
@@ -213,7 +213,7 @@ class Totals:
         """Write everything of a step into its row of the record."""
         function, episode = self.function, self.function.episode
         columns = [
-            *(emitter.text(node, end.team) for node in episode.after.values()),
+            *(emitter.text(node, end.team) for node in traced_slots(episode).values()),
             *(emitter.text(node, end.team) for node in traced_definitions(episode).values()),
             *map(name_text, function.actions),
             *self._expectations(emitter, end),
