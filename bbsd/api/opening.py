@@ -1,0 +1,57 @@
+"""Open the environment of a spec, where its world is one that is stepped in Python."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from bbsd.environments.importing.configuration import allowed_by_configuration, configuration_file
+from bbsd.environments.importing.consent import consent
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from bbsd.environments.importing.consent import Consent
+    from bbsd.environments.importing.modules import Announce
+    from bbsd.environments.opening import Opened
+    from bbsd.environments.stepping import Stepper
+    from bbsd.language.loading import Loaded
+
+
+def opened_environment(
+    loaded: Loaded,
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
+) -> Opened | None:
+    """Open the environment of a spec; None where the spec's world is its own, for which nothing is read or imported.
+
+    Args:
+        loaded: the spec.
+        allow_import: modules that may be imported, with all below them.
+        import_from: folders in which modules are looked for, after the installed environment.
+        environment: a class that the caller has in hand, in place of what the spec names.
+        step_limit: seconds that a step or a reset may take.
+        announce: called with each module and its file before it is imported.
+    """
+    if loaded.spec.environment.outside is None:
+        return None
+    from bbsd.environments.for_spec import opened_for
+
+    allowed = users_consent(allow_import, import_from)
+    return opened_for(loaded, allowed, step_limit, given=environment, announce=announce)
+
+
+def users_consent(allow_import: Sequence[str], import_from: Sequence[str | Path]) -> Consent:
+    """Return the consent of a call together with that of the user's configuration file."""
+    given = consent(allow_import, import_from)
+    configured = allowed_by_configuration(configuration_file())
+    return consent([*given.modules, *configured], given.folders)
+
+
+def stepper_of(opened: Opened | None) -> Callable[[], Stepper] | None:
+    """Return what makes a stepper of an environment; None where there is none."""
+    return None if opened is None else opened.stepper
