@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bbsd.architecture import designed_text, require_writable, tidy_tables
-from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation.visits import visits_after_design
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
@@ -35,10 +35,14 @@ from bbsd.stopping import stop_request_of_context
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from bbsd.compiler import Problem
     from bbsd.engines.processes import Processes
+    from bbsd.environments.importing.modules import Announce
+    from bbsd.environments.opening import Opened
     from bbsd.language.loading import Loaded
     from bbsd.solver.paper.settings import Settings
 from bbsd.api.compiling import located_reward_errors
+from bbsd.api.opening import opened_environment, problem_of
 from bbsd.api.results import (
     AnyProgress,
     BestSoFar,
@@ -68,6 +72,11 @@ def design(
     more: int | None = None,
     within: float | None = None,
     rivals: Sequence[str] = (),
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
 ) -> Designed:
     """Fill the holes of a spec, and write the design and its metrics into a folder.
 
@@ -93,6 +102,12 @@ def design(
             the same bytes.
         within: Seconds of each run, instead of a budget in episodes; the result cannot be reproduced.
         rivals: Names of methods on which the same budget is spent too; what they achieve is reported beside.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -102,19 +117,23 @@ def design(
         FolderError: the folder cannot be written, or not be resumed.
         WorkerLost: a process that did a run was killed.
         Interrupted: the design was interrupted; `resume` continues it.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     started = time.monotonic()
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = _problem_with_holes(loaded, lanes, jobs)
+    opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
+    problem = _problem_with_holes(loaded, opened, lanes, jobs)
     settings = settings_of(loaded.meaning)
     if settings.method == "paper" and (more is not None or within is not None):
         raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
-    run_identity = identity(loaded, seed, runs)
+    run_identity = identity(loaded, seed, runs, None if opened is None else opened.plain())
     folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
     with only_writer(folder):
+        fickle = None if opened is None else _fickle(opened, loaded)
         budgets = _budgets(settings, problem, folder, more, within)
         if not resume or budgets != folder.budgets():
-            folder.write_run_file(run_identity, overrides, budgets, folder.result() or None)
+            folder.write_run_file(run_identity, overrides, budgets, folder.result() or None, fickle)
         command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
         listener = progress and _metrics_listener(command, progress)
         with _interruptible(command, loaded, overdue, keep_best=True):
@@ -129,7 +148,7 @@ def design(
         write_visits(folder.path, text, problem.names, visits)
         names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
         result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
-        folder.write_run_file(run_identity, overrides, budgets, result)
+        folder.write_run_file(run_identity, overrides, budgets, result, fickle)
         with _interruptible(command, loaded, overdue, keep_best=False):
             others = tuple(
                 rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
@@ -152,7 +171,20 @@ def design(
         _first_reward(folder, judged.selection),
         missed,
         joint_policy_returns(command),
+        fickle or "",
     )
+
+
+def _fickle(opened: Opened, loaded: Loaded) -> str:
+    """Return why an environment's episodes cannot be repeated; '' where they can, as far as a self-check shows."""
+    from bbsd.engines.processes import waiting_processes
+    from bbsd.environments.for_spec import settings
+    from bbsd.environments.self_check import self_check
+
+    if opened.recipe.given is not None and not opened.recipe.is_portable:
+        return self_check(opened, settings(loaded.meaning))
+    with waiting_processes(1, ("bbsd.environments.self_check",)) as processes:
+        return self_check(opened, settings(loaded.meaning), processes.submit)
 
 
 def _first_reward(folder: Folder, selection: Selection) -> int | None:
@@ -220,6 +252,11 @@ def price(
     jobs: int = 1,
     starting: float = 0.0,
     overrides: Sequence[str] = (),
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
 ) -> Price:
     """Estimate the time and memory of a `design` from a sample of its episodes; write nothing.
 
@@ -231,19 +268,28 @@ def price(
         jobs: Processes and threads of the design.
         starting: Seconds that the process needs before and after the design; they are added.
         overrides: Values that replace those of the spec.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         NothingToDesign: the spec has no holes.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = _problem_with_holes(loaded, lanes)
+    opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
+    problem = _problem_with_holes(loaded, opened, lanes)
     with located_reward_errors(loaded):
         return price_of(problem, settings_of(loaded.meaning), seed, runs, jobs, starting)
 
 
-def _problem_with_holes(loaded: Loaded, lanes: int, jobs: int = 1) -> Problem:
-    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+def _problem_with_holes(loaded: Loaded, opened: Opened | None, lanes: int, jobs: int = 1) -> Problem:
+    problem = problem_of(loaded, opened, lanes=lanes, jobs=jobs)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
     require_writable(loaded)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from bbsd.architecture import given_architecture
-from bbsd.compiler import Problem, compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation import (
     Evaluation,
     agents_of,
@@ -27,11 +27,15 @@ from bbsd.solver.random_agents import random_agents
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from pathlib import Path
+    from typing import Any
 
-    from bbsd.compiler import DetailedOutcome
+    from bbsd.compiler import DetailedOutcome, Problem
+    from bbsd.environments.importing.modules import Announce
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
 from bbsd.api.compiling import located_reward_errors
+from bbsd.api.opening import opened_environment, problem_of
 from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 
 EPISODES_OF_RANDOM_AGENT = RANDOM_EPISODES
@@ -51,6 +55,11 @@ def evaluate(
     overrides: Sequence[str] = (),
     progress: Callable[[int, int], None] | None = None,
     keep_each: bool = False,
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
 ) -> Evaluation:
     """Run episodes of a spec's design and return their statistics.
 
@@ -67,14 +76,23 @@ def evaluate(
         overrides: Values that replace those of the spec.
         progress: Called from time to time with the numbers of finished and of all episodes.
         keep_each: Keep what each episode brought, as `each`.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         NotEnumerable: `exact`, but the starts cannot be enumerated.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
-    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
+    problem = problem_of(loaded, opened, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
     key = evaluation_key(seed)
     with located_reward_errors(loaded):

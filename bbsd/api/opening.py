@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from bbsd.compiler import compile_meaning
 from bbsd.environments.importing.configuration import allowed_by_configuration, configuration_file
 from bbsd.environments.importing.consent import consent
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
@@ -12,10 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
+    from bbsd.compiler import Problem
     from bbsd.environments.importing.consent import Consent
     from bbsd.environments.importing.modules import Announce
     from bbsd.environments.opening import Opened
-    from bbsd.environments.stepping import Stepper
     from bbsd.language.loading import Loaded
 
 
@@ -52,6 +53,14 @@ def users_consent(allow_import: Sequence[str], import_from: Sequence[str | Path]
     return consent([*given.modules, *configured], given.folders)
 
 
-def stepper_of(opened: Opened | None) -> Callable[[], Stepper] | None:
-    """Return what makes a stepper of an environment; None where there is none."""
-    return None if opened is None else opened.stepper
+def problem_of(
+    loaded: Loaded,
+    opened: Opened | None,
+    *,
+    lanes: int | None = None,
+    jobs: int = 1,
+    compiled: bool = True,
+) -> Problem:
+    """Return the problem of a spec, stepped by its environment where there is one."""
+    stepper = None if opened is None else opened.stepper
+    return compile_meaning(loaded.meaning, lanes=lanes, compiled=compiled, jobs=jobs, stepper=stepper)

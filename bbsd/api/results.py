@@ -146,6 +146,8 @@ class Designed:
 
     None for other methods.
     """
+    not_reproducible: str = ""
+    """Why the episodes of an environment that is stepped in Python cannot be repeated; '' where they can."""
 
     @property
     def mean(self) -> float:

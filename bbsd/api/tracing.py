@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
+from bbsd.api.opening import opened_environment, problem_of
 from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import given_architecture
-from bbsd.compiler import compile_meaning
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation import (
     NoSuchEpisode,
     Trace,
@@ -20,11 +21,15 @@ from bbsd.evaluation import (
 from bbsd.evaluation import trace as trace_episode
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+    from typing import Any
 
     import numpy as np
     from numpy.typing import NDArray
 
+    from bbsd.environments.importing.modules import Announce
+    from bbsd.environments.opening import Opened
     from bbsd.evaluation import Rank
     from bbsd.language.loading import Loaded
 
@@ -36,6 +41,11 @@ def trace(
     episode: int | Rank = 0,
     episodes: int = EPISODES_OF_DESIGN,
     overrides: Sequence[str] = (),
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
 ) -> Trace:
     """Run one of the episodes of `evaluate`, and return all values of each step.
 
@@ -45,15 +55,24 @@ def trace(
         episode: Its number from 0, or "worst", "median" or "best" of the first `episodes`.
         episodes: How many episodes to choose from.
         overrides: Values that replace those of the spec.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
 
     Raises:
         SpecError: with all mistakes of the spec.
         HolesLeft: the spec has holes.
         NoSuchEpisode: the number is negative.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     loaded = load(spec, seed=seed, overrides=overrides)
-    number = episode_number(loaded, episode, episodes=episodes, seed=seed)
-    problem = compile_meaning(loaded.meaning, compiled=False)
+    opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
+    number = episode_number(loaded, episode, episodes=episodes, seed=seed, opened=opened)
+    problem = problem_of(loaded, opened, compiled=False)
     key = episode_key(seed, number)
     return trace_episode(
         problem, given_architecture(problem), key, loaded.spec.design.coevolution.generations
@@ -61,7 +80,12 @@ def trace(
 
 
 def episode_number(
-    loaded: Loaded, which: int | Rank, *, episodes: int = EPISODES_OF_DESIGN, seed: int = 0
+    loaded: Loaded,
+    which: int | Rank,
+    *,
+    episodes: int = EPISODES_OF_DESIGN,
+    seed: int = 0,
+    opened: Opened | None = None,
 ) -> int:
     """Return the number of an episode of `evaluate`: a given one, or the worst, median or best of the first.
 
@@ -71,20 +95,22 @@ def episode_number(
         NoSuchEpisode: the number is negative.
     """
     if not isinstance(which, int):
-        return chosen_episode(episode_returns(loaded, episodes, seed), which)
+        return chosen_episode(episode_returns(loaded, episodes, seed, opened), which)
     if which < 0:
         raise NoSuchEpisode(f"there is no episode {which}")
     return which
 
 
-def episode_returns(loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: int = 0) -> NDArray[np.float64]:
+def episode_returns(
+    loaded: Loaded, episodes: int = EPISODES_OF_DESIGN, seed: int = 0, opened: Opened | None = None
+) -> NDArray[np.float64]:
     """Return the returns (n_episodes,) of the first episodes of `evaluate`.
 
     Raises:
         SpecError: a reward is not finite.
         HolesLeft: the spec has holes.
     """
-    problem = compile_meaning(loaded.meaning)
+    problem = problem_of(loaded, opened)
     agent = agents_of([given_architecture(problem)])
     streams = evaluation_keys(seed, episodes)
     with located_reward_errors(loaded):

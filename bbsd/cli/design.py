@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bbsd.cli.access import access
 from bbsd.cli.budget import read_budget, read_seeds
-from bbsd.cli.options import AsJson, Lanes, Overrides, Seed, SpecFile
+from bbsd.cli.options import AllowImport, AsJson, ImportFrom, Lanes, Overrides, Seed, SpecFile, StepLimit
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
@@ -123,6 +124,9 @@ def design(
     compare_methods: Annotated[
         bool, typer.Option("--compare-methods", help="Spend the same budget on every other method too.")
     ] = False,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
     as_json: AsJson = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only estimate what the design would cost; write nothing.")
@@ -137,6 +141,7 @@ def design(
     from bbsd.language.loading import load
     from bbsd.text import Source
 
+    opening = access(allow_import, import_from, step_limit)
     require_figures(plot, plot_to, plot_beside, seed)
     _make_folder(tensorboard)
     set_by_budget, within = read_budget(budget)
@@ -158,7 +163,15 @@ def design(
 
         if dry_run:
             starting = time.process_time() + (DRAWING if plot or plot_to else 0.0)
-            price = api.price(loaded, seed=seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting)
+            price = api.price(
+                loaded,
+                seed=seed,
+                runs=runs,
+                lanes=lanes,
+                jobs=jobs,
+                starting=starting,
+                **opening,
+            )
             _show_price(price, as_json=as_json)
             return
         console = error_console()
@@ -186,6 +199,7 @@ def design(
                     progress=listener,
                     overdue=leave,
                     ready=ready,
+                    **opening,
                 )
 
         try:
@@ -207,8 +221,7 @@ def design(
         say("a budget by time cannot be reproduced: the same command may give another design")
     _show(designed, seed, runs, as_json=as_json)
     figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
-    if figures:
-        draw_search(designed, loaded.spec.name, seed, plot_beside, figures)
+    draw_search(designed, loaded.spec.name, seed, plot_beside, figures, opening)
     _write_events(designed, tensorboard)
 
 
@@ -295,6 +308,8 @@ def _write_events(designed: "Designed", folder: Path | None) -> None:
 
 
 def _show(designed: "Designed", seed: int, runs: int, *, as_json: bool) -> None:
+    if designed.not_reproducible:
+        say(f"not reproducible: {designed.not_reproducible}; the same command may give another design")
     if as_json:
         show(json_text(design_plain(designed, seed, runs)))
         return

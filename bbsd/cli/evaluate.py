@@ -7,8 +7,28 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson, DesignFile, Episode, Jobs, Lanes, Overrides, Seed, read_episode
-from bbsd.cli.output import error_console, has_blocks, require_writable_file, say, show, show_table
+from bbsd.cli.access import access
+from bbsd.cli.options import (
+    AllowImport,
+    AsJson,
+    DesignFile,
+    Episode,
+    ImportFrom,
+    Jobs,
+    Lanes,
+    Overrides,
+    Seed,
+    StepLimit,
+    read_episode,
+)
+from bbsd.cli.output import (
+    error_console,
+    has_blocks,
+    require_writable_file,
+    say,
+    show,
+    show_table,
+)
 from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
 from bbsd.files import write_text_whole
@@ -116,6 +136,9 @@ def evaluate(
         bool,
         typer.Option("--relearn", help="With --fault: also learn the order of the layers again around it."),
     ] = False,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
     as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
@@ -149,6 +172,7 @@ def evaluate(
         return
     from bbsd.report.progress import episode_listener
 
+    opening = access(allow_import, import_from, step_limit)
     with episode_listener(error_console()) as listener:
         evaluation = bbsd.evaluate(
             loaded,
@@ -161,12 +185,13 @@ def evaluate(
             jobs=jobs,
             progress=listener,
             keep_each=returns is not None,
+            **opening,
         )
     _show(evaluation, as_json=as_json)
     _write_returns(evaluation, returns)
     if trace or plot:
         number = chosen if isinstance(chosen, int) else _number_of(chosen, evaluation)
-        traced = bbsd.trace(loaded, seed=seed, episode=number)
+        traced = bbsd.trace(loaded, seed=seed, episode=number, **opening)
         if trace:
             _write_trace(traced, trace, trace_format)
         if plot:

@@ -74,6 +74,34 @@ Lanes = Annotated[
     ),
 ]
 
+AllowImport = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="MODULE",
+        help="Allow the spec's environment to import a module, which runs its code; may be repeated.",
+        show_default=False,
+    ),
+]
+
+ImportFrom = Annotated[
+    list[Path] | None,
+    typer.Option(
+        metavar="FOLDER",
+        help="Look for allowed modules in this folder too; may be repeated.",
+        show_default="the installed environment alone",
+    ),
+]
+
+StepLimit = Annotated[
+    float,
+    typer.Option(
+        "--step-limit",
+        metavar="S",
+        min=0.1,
+        help="Seconds that a step of the spec's environment may take.",
+    ),
+]
+
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 FormatIsJson = Annotated[bool, typer.Option("--json", help="The same as --format json.")]
 

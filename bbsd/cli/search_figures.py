@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.api import Designed
+    from bbsd.cli.access import Access
 
 CURVES = "curves.png"
 """The figure in the folder of a design."""
@@ -36,16 +37,23 @@ def require_figures(plot: bool, plot_to: Path | None, beside: Path | None, seed:
 
 
 def draw_search(
-    designed: "Designed", name: str, seed: int, beside: Path | None, figures: "Sequence[Path]"
+    designed: "Designed",
+    name: str,
+    seed: int,
+    beside: Path | None,
+    figures: "Sequence[Path]",
+    opening: "Access",
 ) -> None:
     """Draw the metrics, after the result is shown: matplotlib takes longer than a small design."""
+    if not figures:
+        return
     from bbsd import api
     from bbsd.runs.storage.folder import Folder
 
     returns = {"random agents": designed.random.mean}
     if beside is not None:
         compared = api.load(beside, seed=seed)
-        returns[compared.spec.name] = api.evaluate(compared, seed=seed).mean
+        returns[compared.spec.name] = api.evaluate(compared, seed=seed, **opening).mean
     title = f"{name}, seed {seed}: the design earns {number(designed.mean)}"
     lines = Folder(designed.folder).lines()
     for path in figures:

@@ -13,7 +13,7 @@ from bbsd.environments.lanes.gymnasium import GymnasiumLanes
 from bbsd.environments.lanes.pettingzoo import PettingZooLanes
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT, CallWatch
 from bbsd.environments.making import making_of, making_of_class
-from bbsd.environments.origin import importable, origin_of
+from bbsd.environments.origin import NotPortable, importable, origin_of
 from bbsd.environments.spaces.kinds import Space, space_of, space_of_value
 from bbsd.environments.spaces.misfits import Misfit, UnfitError
 from bbsd.environments.spaces.reading import reader_of
@@ -48,6 +48,15 @@ class Recipe:
     seconds: float = DEFAULT_LIMIT
     given: Callable[..., Any] | None = None
     """A class that the caller has in hand; nothing is imported then."""
+
+    @property
+    def is_portable(self) -> bool:
+        """Whether another process can open it."""
+        try:
+            self.plain()
+        except NotPortable:
+            return False
+        return True
 
     def plain(self) -> dict[str, Data]:
         """Return the recipe as plain data, from which `recipe_of` makes it again in another process.

@@ -65,10 +65,21 @@ def scene(picture: Picture, moments: Sequence[Stored], constants: Sequence[float
     )
 
 
-def starting_values(meaning: Meaning, key: int, constants: Sequence[float]) -> dict[Slot, float]:
-    """Return all values stored when an episode starts; `key` names the episode's random streams."""
+def starting_values(
+    meaning: Meaning, key: int, constants: Sequence[float], observed: Mapping[Slot, float] | None = None
+) -> dict[Slot, float]:
+    """Return all values stored when an episode starts.
+
+    Args:
+        meaning: the spec's.
+        key: names the episode's random streams.
+        constants: their values.
+        observed: what an environment that is stepped in Python shows at the start.
+    """
 
     def leaf(node: Node, operands: list[Any]) -> float:
+        if node.operation == "outside":
+            return (observed or {})[node.slot]
         if node.operation != "draw":
             return node.read(constants, operands)
         return DISTRIBUTIONS[node.draw.distribution](key, fold(node.draw.kernel_word, word_of(0)), *operands)

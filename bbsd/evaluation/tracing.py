@@ -42,7 +42,7 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
     team = problem.assemble(pools, members, generation)
     record = record[: team.traced_episode(key, architecture.structure, record)]
     constants = meaning.constants.vector(generation)
-    start = starting_values(meaning, key, constants)
+    start = starting_values(meaning, key, constants, _observed(problem, key))
     traced = Trace(
         steps=np.arange(1, len(record) + 1),
         **_read(problem, columns, record, _with_definitions(start, meaning, constants)),
@@ -51,6 +51,16 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
         layers=layers_of(meaning.episode.modules, architecture.structure),
     )
     return replace(traced, scene=_scene(columns, record, meaning, start, constants))
+
+
+def _observed(problem: Problem, key: int) -> dict[Slot, float]:
+    """Return what an environment that is stepped in Python shows at the start of an episode; nothing without one."""
+    slots = problem.meaning.episode.outside
+    if not slots or problem.stepper is None:
+        return {}
+    outside = np.zeros((len(slots), 1))
+    problem.stepper().reset(np.array([0]), np.array([key], np.uint64), outside)
+    return dict(zip(slots, outside[:, 0].tolist(), strict=True))
 
 
 def _with_definitions(

@@ -130,8 +130,17 @@ class Folder:
         overrides: Sequence[str] = (),
         budgets: Sequence[int] = (),
         result: dict[str, Any] | None = None,
+        fickle: str | None = None,
     ) -> None:
-        """Write `run.json`, with the result once there is one."""
+        """Write `run.json`, with the result once there is one.
+
+        Args:
+            who: what the run is.
+            overrides: as the command had them.
+            budgets: of each run, one after another.
+            result: what came out.
+            fickle: why an environment in Python does not repeat its episodes, '' where it does; None without one.
+        """
         content = {
             "format": FORMAT,
             **who.plain(),
@@ -143,6 +152,8 @@ class Folder:
                 "system": platform.system(),
                 "processor": platform.machine(),
             },
+            **({} if fickle is None else {"reproducible": not fickle}),
+            **({"not_reproducible": fickle} if fickle else {}),
             **({} if result is None else {"result": result}),
         }
         write_text_whole(self.run_file, json.dumps(content, indent=2) + "\n")
@@ -224,7 +235,7 @@ def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
             return folder
     for folder in reversed(folders):
         if folder.holds_other_version(who):
-            raise FolderError(_other_version(folder))
+            raise FolderError(_other_version(folder, who))
     if wanted is not None:
         raise FolderError(_other_run(folders[0], who))
     raise FolderError(
@@ -240,8 +251,14 @@ def _other_run(folder: Folder, who: Identity) -> str:
     return f"{folder.path} holds no run of this spec with this seed, these runs and these settings{different}"
 
 
-def _other_version(folder: Folder) -> str:
+def _other_version(folder: Folder, who: Identity) -> str:
     content = folder.read_run_file()
+    if content.get("bbsd") == __version__ and content.get("revision") == REVISION:
+        different = " and ".join(who.differences(content))
+        return (
+            f"{folder.path} is a run of the same spec and seed in another environment: different are {different}; "
+            "resume it where it was begun, or start again without --resume"
+        )
     theirs = (
         f"bbsd {content.get('bbsd', 'of unknown version')}, revision {content.get('revision', 'unknown')}"
     )

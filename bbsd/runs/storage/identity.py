@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 WITHOUT_MEANING = ("bbsd", "name", "summary", "view", "extends")
 """Blocks that change no episode."""
 FREE = "x-"
+ENVIRONMENT = "environment"
+"""The key of what identifies the environment, beside the spec."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,10 +30,13 @@ class Identity:
     """A digest of the values of each block, after overrides, without comments, layout and the budget of a search."""
     seed: int
     runs: int
+    environment: tuple[tuple[str, str], ...] = ()
+    """What identifies the environment that is stepped in Python; none where the world is the spec's own."""
 
     def plain(self) -> dict[str, Any]:
         """Return the identity as `run.json` and checkpoints hold it."""
-        return {"bbsd": __version__, "revision": REVISION, **self.command()}
+        environment = {ENVIRONMENT: dict(self.environment)} if self.environment else {}
+        return {"bbsd": __version__, "revision": REVISION, **self.command(), **environment}
 
     def command(self) -> dict[str, Any]:
         """Return the part of the identity that the user chose."""
@@ -53,11 +58,21 @@ class Identity:
         }.items():
             if content.get(key) != expected[key]:
                 words.append(f"the {name} ({content.get(key, 'unknown')}, not {expected[key]})")
-        return words
+        return [*words, *self._other_environment(content)]
+
+    def _other_environment(self, content: Mapping[str, Any]) -> list[str]:
+        """Return what differs in the environment that is stepped in Python."""
+        theirs, own = content.get(ENVIRONMENT), dict(self.environment)
+        held = theirs if isinstance(theirs, dict) else {}
+        return [
+            f"the environment's {key} ({held.get(key, 'none')}, not {own.get(key, 'none')})"
+            for key in {**own, **held}
+            if own.get(key) != held.get(key)
+        ]
 
 
-def identity(loaded: Loaded, seed: int, runs: int) -> Identity:
-    """Return the identity of a design."""
+def identity(loaded: Loaded, seed: int, runs: int, environment: Mapping[str, str] | None = None) -> Identity:
+    """Return the identity of a design; `environment` identifies one that is stepped in Python."""
     data = loaded.data if isinstance(loaded.data, dict) else {}
     paper = loaded.spec.design.chosen_method == "paper"
     blocks = {key: _meant(value, key, paper=paper) for key, value in data.items()}
@@ -69,6 +84,7 @@ def identity(loaded: Loaded, seed: int, runs: int) -> Identity:
         ),
         seed,
         runs,
+        tuple((environment or {}).items()),
     )
 
 
