@@ -348,4 +348,15 @@ SPEC_KINDS = (
         example="design:\n  method: random\n  learning:\n    exploration: 0.1",
         mend="design:\n  method: random",
     ),
+    DiagnosisKind(
+        code="BB126",
+        title="settings that contradict one another",
+        explanation=(
+            "One setting of the paper's loop leaves another nothing to do: as many elites as a pool has individuals, "
+            "fewer agents than individuals to try, more last episodes than a lifetime has, records of generations "
+            "that never come."
+        ),
+        example="design:\n  coevolution:\n    population: 6\n    elites: 7",
+        mend="design:\n  coevolution:\n    population: 6\n    elites: 1",
+    ),
 )

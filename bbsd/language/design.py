@@ -27,6 +27,7 @@ LEAST_BUDGET = 5_000
 """Episodes; with fewer, the final race cannot let two designs run 400 episodes each."""
 
 HARD_MUTATION = "0.01 / log2(generation + 1) if generation <= 0.8 * generations else 0"
+SOFT_MUTATION = "2 * hard_mutation"
 
 
 def _default(text: str) -> Expression:
@@ -59,7 +60,7 @@ class Coevolution(Part):
         "may use generation, generations.",
     )
     soft_mutation: ExpressionText = Field(
-        _default("2 * hard_mutation"),
+        _default(SOFT_MUTATION),
         description="Probability that a cell is drawn anew; may use generation, generations, hard_mutation.",
     )
 

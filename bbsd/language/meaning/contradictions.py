@@ -10,11 +10,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bbsd.expression.scope import Findings
+    from bbsd.language.base import Part
     from bbsd.language.design import Design
 
 
 def report_contradictions(design: Design, findings: Findings, *, structure_is_open: bool) -> None:
-    """Report a budget beside generations, and settings of learning that have no effect."""
+    """Report settings of which one leaves another nothing to do, each at the key that is written."""
     if (
         design.chosen_method == "paper"
         and design.episodes is not None
@@ -23,8 +24,42 @@ def report_contradictions(design: Design, findings: Findings, *, structure_is_op
         message = "the generations are given too, and the budget would have no effect"
         advice = "leave out design.coevolution.generations: they follow from the budget"
         findings.report(("design", "budget"), "BB070", message, KEY, advice)
+    if design.chosen_method == "paper":
+        for path, message, advice in _contradictions(design, structure_is_open=structure_is_open):
+            findings.report(("design", *path), "BB126", message, KEY, advice)
     for key, reason in _without_effect(design, structure_is_open=structure_is_open):
         findings.report(("design", "learning", key), "BB071", f"this has no effect: {reason}", KEY)
+
+
+def _contradictions(design: Design, *, structure_is_open: bool) -> Iterator[tuple[tuple[str, ...], str, str]]:
+    """Yield the settings of the paper's loop that leave another one nothing to do: the key, why, and what to write."""
+    evolved, learning = design.coevolution, design.learning
+    population, agents = evolved.population, evolved.agents
+    if evolved.elites >= population:
+        message = f"all individuals of a pool, {population}, would be elites, so that nothing is bred"
+        yield (
+            _written(evolved, "coevolution", "elites", "population"),
+            message,
+            f"let elites be at most {population - 1}" if population > 1 else "let population be 2 or more",
+        )
+    if agents < population:
+        message = f"{agents} agents cannot try {population} individuals: each agent has one from each pool"
+        advice = f"let agents be {population} or more, a multiple of the population at best"
+        yield _written(evolved, "coevolution", "agents", "population"), message, advice
+    if structure_is_open and learning.last > learning.episodes:
+        message = f"a lifetime of {learning.episodes} episodes does not have {learning.last} last ones"
+        advice = f"let last be {learning.episodes} or less"
+        yield _written(learning, "learning", "last", "episodes"), message, advice
+    if design.episodes is None and not any(map(design.records, range(1, evolved.generations + 1))):
+        if design.record != "none":
+            message = f"nothing would be recorded in {evolved.generations} generations"
+            yield ("record",), message, f"generations count from 1 to {evolved.generations}"
+
+
+def _written(block: Part, name: str, key: str, other: str) -> tuple[str, ...]:
+    """Return the path of the first of two keys that the spec has."""
+    is_written = key in block.model_fields_set or other not in block.model_fields_set
+    return (name, key if is_written else other)
 
 
 def _without_effect(design: Design, *, structure_is_open: bool) -> Iterator[tuple[str, str]]:

@@ -12,6 +12,7 @@ from bbsd.expression.node_data import Slot
 from bbsd.expression.repetition import values_for
 from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared
 from bbsd.expression.syntax.mistakes import WHOLE
+from bbsd.language.design import SOFT_MUTATION
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 MAX_OPERATIONS = 600_000
 """Operations that compute a rate for all generations or episodes: a fifth of a second."""
+FOLLOWING = "soft_mutation, {} where it is not given,"
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +59,17 @@ def evaluate_rates(spec: Spec, graph: Graph, findings: Findings, constants: Mapp
     scope = Scope(graph, {**shared, "episode": Shared(episode)}, findings)
     rate = _node(learning.rate, scope, ("design", "learning", "rate"))
     exploration = _node(learning.exploration, scope, ("design", "learning", "exploration"))
+    follows = hard_rates and "soft_mutation" not in coevolution.model_fields_set
+    soft_rates = (
+        _probabilities(soft, all_generations, findings, path, "generation", FOLLOWING.format(SOFT_MUTATION))
+        if follows
+        else _probabilities(
+            soft, all_generations, findings, ("design", "coevolution", "soft_mutation"), "generation"
+        )
+    )
     return Rates(
         hard_rates,
-        _probabilities(
-            soft, all_generations, findings, ("design", "coevolution", "soft_mutation"), "generation"
-        ),
+        soft_rates,
         _probabilities(rate, all_episodes, findings, ("design", "learning", "rate"), "episode"),
         _probabilities(exploration, all_episodes, findings, ("design", "learning", "exploration"), "episode"),
     )
@@ -72,7 +80,7 @@ def _node(rate: Expression, scope: Scope, path: Path) -> Node:
 
 
 def _probabilities(
-    node: Node, numbers: range, findings: Findings, path: Path, unit: str
+    node: Node, numbers: range, findings: Findings, path: Path, unit: str, what: str = "this"
 ) -> tuple[float, ...]:
     """Return the values for generations or episodes; report one that is no probability and return none."""
     nodes = needed([node])
@@ -90,7 +98,7 @@ def _probabilities(
     values = []
     for number, value in zip(numbers, values_for(node, map(float, numbers)), strict=True):
         if not 0 <= value <= 1:
-            findings.report(path, "BB043", f"this is {value:g} in {unit} {number}; it must be from 0 to 1")
+            findings.report(path, "BB043", f"{what} is {value:g} in {unit} {number}; it must be from 0 to 1")
             return ()
         values.append(float(value))
     return tuple(values)

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.language.loading import load
+from bbsd.language.loading import check, load
 from tests.unit.language.specs import codes, meaning_of, source
 
 TWO = "behaviors: {go: {inputs: {low: height < 2}, actions: {up: {speed: 1}}}}\n"
@@ -11,7 +11,7 @@ def method(part: str, *overrides: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "part", ["coevolution: {agents: 9}", "learning: {episodes: 9}", "culture: none", "sharing: value"]
+    "part", ["coevolution: {agents: 90}", "learning: {episodes: 9}", "culture: none", "sharing: value"]
 )
 def test_a_spec_with_settings_of_the_loop_and_no_method_means_the_paper_s(part: str) -> None:
     assert method(f"design: {{{part}}}") == "paper"
@@ -81,3 +81,33 @@ def test_what_becomes_of_explored_structures_matters_only_where_there_is_explora
 
 def test_counters_do_not_decay() -> None:
     assert codes(f"{TWO}design: {{learning: {{outside: decay, estimate: counters}}}}") == ["BB071"]
+
+
+@pytest.mark.parametrize(
+    ("design", "key", "message"),
+    [
+        ("coevolution: {population: 6, elites: 6}", "elites", "nothing is bred"),
+        ("coevolution: {population: 1}", "population", "nothing is bred"),
+        ("coevolution: {agents: 3}", "agents", "3 agents cannot try 20 individuals"),
+        ("coevolution: {population: 201}", "population", "200 agents cannot try 201 individuals"),
+        ("learning: {last: 26}", "last", "a lifetime of 25 episodes"),
+        ("learning: {episodes: 4}", "episodes", "does not have 5 last ones"),
+        ("coevolution: {generations: 3}, record: 4", "record", "nothing would be recorded in 3 generations"),
+        ("coevolution: {generations: 3}, record: [5, 9]", "record", "nothing would be recorded"),
+    ],
+)
+def test_settings_that_contradict_are_told_at_the_key_that_is_written(
+    design: str, key: str, message: str
+) -> None:
+    text = source(f"{TWO}design: {{{design}}}")
+    (found,) = check(text)
+    assert (found.code, message in found.message) == ("BB126", True)
+    assert text.line(found.place.line)[found.place.column - 1 :].startswith(key)
+    assert not check(source(f"{TWO}design: {{method: random, {design}}}"))
+
+
+def test_what_follows_from_a_rate_is_told_at_that_rate() -> None:
+    text = source(f"{TWO}design: {{coevolution: {{hard_mutation: 0.6}}}}")
+    (found,) = check(text)
+    assert (found.code, "soft_mutation, 2 * hard_mutation" in found.message) == ("BB043", True)
+    assert text.line(found.place.line)[found.place.column - 1 :].startswith("0.6")

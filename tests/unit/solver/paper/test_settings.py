@@ -65,14 +65,14 @@ def test_where_the_structure_is_given_a_lifetime_is_its_last_episodes():
     assert found.culture is None
 
 
-def test_a_longer_last_than_a_lifetime_is_all_of_it():
-    found = settings("learning: {episodes: 3, last: 7}")
-    assert (found.learning.episodes, found.learning.last) == (3, 3)
+def test_where_the_structure_is_given_a_lifetime_is_its_last_episodes():
+    found = settings("learning: {episodes: 3, last: 7}", "structure: [a, b]")
+    assert (found.learning.episodes, found.learning.last) == (7, 7)
 
 
 @pytest.mark.parametrize("structure", ["", "structure: [a, b]", "structure: [open]", "structure: [a]"])
 def test_there_is_a_rate_for_every_episode(structure):
-    for design in ("learning: {episodes: 3, last: 7}", "learning: {episodes: 7, last: 3}"):
+    for design in ("learning: {episodes: 3, last: 3}", "learning: {episodes: 7, last: 3}"):
         found = settings(design, structure)
         assert len(found.rates.learning) >= found.learning.episodes
 
@@ -87,7 +87,7 @@ def test_culture_may_be_none():
 
 
 def test_elites_are_no_more_than_the_population():
-    assert settings("coevolution: {population: 4, elites: 9}").coevolution.elites == 4
+    assert settings("method: auto, coevolution: {population: 4, elites: 9}").coevolution.elites == 4
 
 
 def test_fewer_agents_and_shorter_lifetimes_leave_all_else_as_it_is():
