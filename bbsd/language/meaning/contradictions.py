@@ -50,10 +50,10 @@ def _contradictions(design: Design, *, structure_is_open: bool) -> Iterator[tupl
         message = f"a lifetime of {learning.episodes} episodes does not have {learning.last} last ones"
         advice = f"let last be {learning.episodes} or less"
         yield _written(learning, "learning", "last", "episodes"), message, advice
-    if design.episodes is None and not any(map(design.records, range(1, evolved.generations + 1))):
-        if design.record != "none":
-            message = f"nothing would be recorded in {evolved.generations} generations"
-            yield ("record",), message, f"generations count from 1 to {evolved.generations}"
+    generations = range(1, evolved.generations + 1)
+    if design.record != "none" and design.episodes is None and not any(map(design.records, generations)):
+        message = f"nothing would be recorded in {evolved.generations} generations"
+        yield ("record",), message, f"generations count from 1 to {evolved.generations}"
 
 
 def _written(block: Part, name: str, key: str, other: str) -> tuple[str, ...]:

@@ -65,11 +65,6 @@ def test_where_the_structure_is_given_a_lifetime_is_its_last_episodes():
     assert found.culture is None
 
 
-def test_where_the_structure_is_given_a_lifetime_is_its_last_episodes():
-    found = settings("learning: {episodes: 3, last: 7}", "structure: [a, b]")
-    assert (found.learning.episodes, found.learning.last) == (7, 7)
-
-
 @pytest.mark.parametrize("structure", ["", "structure: [a, b]", "structure: [open]", "structure: [a]"])
 def test_there_is_a_rate_for_every_episode(structure):
     for design in ("learning: {episodes: 3, last: 3}", "learning: {episodes: 7, last: 3}"):
