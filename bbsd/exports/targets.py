@@ -6,10 +6,10 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.exports import btcpp, c, python, pytrees
-from bbsd.exports.verification.behaviortree import run_btcpp
+from bbsd.exports.verification.behaviortree import most_cells_of_btcpp, run_btcpp
 from bbsd.exports.verification.compilers import run_gcc
 from bbsd.exports.verification.interpreters import run_cpython, run_micropython
-from bbsd.exports.verification.pytrees import run_pytrees
+from bbsd.exports.verification.pytrees import most_cells_of_pytrees, run_pytrees
 from bbsd.exports.verification.tools import Runner
 
 if TYPE_CHECKING:
@@ -37,12 +37,12 @@ TARGETS: Mapping[str, Target] = MappingProxyType(
         "btcpp": Target(
             "a tree of BehaviorTree.CPP 4 in XML, which Groot2 shows",
             btcpp.write,
-            (Runner("behaviortreepy", run_btcpp),),
+            (Runner("behaviortreepy", run_btcpp, most_cells=most_cells_of_btcpp),),
         ),
         "pytrees": Target(
             "a Python module that builds a tree of py_trees",
             pytrees.write,
-            (Runner("py_trees", run_pytrees),),
+            (Runner("py_trees", run_pytrees, most_cells=most_cells_of_pytrees),),
         ),
     }
 )

@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from bbsd.architecture.boxes import FREE, KEEP
+from bbsd.architecture.boxes import FREE, KEEP, n_words
 from bbsd.architecture.policy import MAX_JOINT_CELLS
 from bbsd.architecture.shortest import rule_list, shortest_cover
+from bbsd.architecture.spec_changes import MOST_WORDS
+from bbsd.errors import UsageError
 from bbsd.explanation.conditions import condition_text
 from bbsd.language.meaning.tables.table import NO_ACTION
 
@@ -68,8 +70,17 @@ class Tree(NamedTuple):
     silent: tuple[str, ...]
 
 
+class TooLongForATree(UsageError):
+    """A behavior whose rules are too long to read is too long for a tree, which is there to be looked at."""
+
+    advice = "bbsd export --to c or --to python writes its table"
+
+
 def tree_of(controller: Controller) -> Tree:
-    """Return the tree of a design: a fallback over its layers, and after them nobody's action where that may be."""
+    """Return the tree of a design: a fallback over its layers, and after them nobody's action where that may be.
+
+    Raises TooLongForATree.
+    """
     matters, may_be_nobody = _where_tables_matter(controller)
     children: list[Node] = []
     silent: list[str] = []
@@ -89,6 +100,11 @@ def nodes_of(node: Node) -> Iterator[Node]:
     yield node
     for child in node.children if isinstance(node, Group) else ():
         yield from nodes_of(child)
+
+
+def n_nodes(controller: Controller) -> int:
+    """Return the number of nodes of a design's tree."""
+    return sum(1 for _ in nodes_of(tree_of(controller).root))
 
 
 def silent_said(tree: Tree) -> list[str]:
@@ -121,7 +137,11 @@ def _layer(controller: Controller, layer: Layer, matters: NDArray[np.bool_]) -> 
     """Return a behavior's tree; None where it never acts."""
     table = np.frombuffer(layer.table, np.uint8).astype(np.int64)
     body: Node | None = None
-    for decision, boxes in reversed(_runs(np.where(matters, table, FREE), layer.sizes)):
+    runs = _runs(np.where(matters, table, FREE), layer.sizes)
+    n = sum(n_words(box, layer.sizes) for _, boxes in runs for box in boxes)
+    if n > MOST_WORDS:
+        raise TooLongForATree(f"the rules of {layer.behavior} have {n:,} words, more than {MOST_WORDS:,}")
+    for decision, boxes in reversed(runs):
         body = _with_rules(controller, layer, decision, boxes, body)
     if body is None:
         return None

@@ -8,6 +8,7 @@ from json import dumps
 from typing import TYPE_CHECKING
 
 from bbsd.exports.btcpp import leaves_of
+from bbsd.exports.tree import n_nodes
 from bbsd.exports.verification.tools import ToolMissing, folder_of, read_numbers, run_in, write_cells
 
 if TYPE_CHECKING:
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.exports.exported import Exported, Files
+
+MOST_VISITS = 100_000_000
+"""Visits of nodes in some twenty seconds."""
 
 DRIVER = """
 import json
@@ -94,3 +98,8 @@ def run_btcpp(exported: Exported, files: Files, cells: NDArray[np.int64]) -> NDA
         write_cells(folder / "cells", cells)
         run_in(folder, sys.executable, "-I", "driver.py", *map(str, cells.shape), form)
         return read_numbers(folder / "numbers", len(cells))
+
+
+def most_cells_of_btcpp(exported: Exported) -> int:
+    """Return in how many joint cells the tree can be run in less than a minute."""
+    return MOST_VISITS // n_nodes(exported.controller)

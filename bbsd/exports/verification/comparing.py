@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     Cells = NDArray[np.int64]
 
 MOST_CELLS = 1_000_000
-"""Joint cells that are all compared; of a larger space, each behavior's table and a sample are."""
+"""Joint cells that are all compared, fewer with slow tools; of more, each behavior's table and a sample are."""
 SAMPLE = 200_000
 """Joint cells of the sample."""
 TRIES = 30
@@ -66,28 +66,25 @@ class Verified:
 
 def verify(exported: Exported, files: Files, runners: Sequence[Runner]) -> list[Verified]:
     """Run what was exported by each tool, and compare its answers with the design's."""
-    cells = cells_to_compare(exported)
-    space = joint_space(exported.meaning)
-    expected = policy_at(space, exported.architecture, cells)
-    return [_verified(exported, files, runner, cells, expected) for runner in runners]
+    return [_verified(exported, files, runner) for runner in runners]
 
 
-def cells_to_compare(exported: Exported) -> Cells:
-    """Return all joint cells (n, n_dimensions); of a large space, those of `_sampled_cells`."""
+def cells_to_compare(exported: Exported, most: int = MOST_CELLS) -> Cells:
+    """Return all joint cells (n, n_dimensions); where there are more than `most`, those of `_sampled_cells`."""
     sizes, n = exported.controller.sizes, exported.controller.joint_size
-    if n <= MOST_CELLS:
+    if n <= most:
         return np.indices(sizes).reshape(len(sizes), n).T.copy()
-    return _sampled_cells(exported)
+    return _sampled_cells(exported, min(most, SAMPLE))
 
 
-def _sampled_cells(exported: Exported) -> Cells:
-    """Return a sample of the joint cells, and for each cell of each table one in which it decides, if that is found.
+def _sampled_cells(exported: Exported, n: int) -> Cells:
+    """Return n joint cells, and for each cell of each table one in which it decides, if that is found.
 
     The draws depend on the design alone.
     """
     controller, space = exported.controller, joint_space(exported.meaning)
     rng = np.random.default_rng(name_word(f"verify {controller.digest}"))
-    parts = [_drawn(controller, SAMPLE, rng)]
+    parts = [_drawn(controller, n, rng)]
     behaviors = [*exported.meaning.spec.behaviors]
     for layer in controller.layers:
         part = _in_layer(layer, _drawn(controller, len(layer.table), rng))
@@ -115,8 +112,10 @@ def _in_layer(layer: Layer, cells: Cells) -> Cells:
     return cells
 
 
-def _verified(exported: Exported, files: Files, runner: Runner, cells: Cells, expected: Cells) -> Verified:
-    joint_size = exported.controller.joint_size
+def _verified(exported: Exported, files: Files, runner: Runner) -> Verified:
+    joint_size, most = exported.controller.joint_size, min(MOST_CELLS, runner.most_cells(exported))
+    cells = cells_to_compare(exported, most)
+    expected = policy_at(joint_space(exported.meaning), exported.architecture, cells)
     missing, failure, answers = False, "", expected[:0]
     try:
         answers = runner.run(exported, files, cells)
@@ -133,7 +132,7 @@ def _verified(exported: Exported, files: Files, runner: Runner, cells: Cells, ex
         failure=failure,
         compared=len(cells),
         equal=len(cells) - len(wrong) if ran else 0,
-        is_proof=joint_size <= MOST_CELLS,
+        is_proof=joint_size <= most,
         joint_size=joint_size,
         first_difference=_difference(exported.controller, cells, expected, answers, int(wrong[0]))
         if len(wrong)

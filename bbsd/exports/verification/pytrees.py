@@ -6,6 +6,7 @@ import sys
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from bbsd.exports.tree import n_nodes
 from bbsd.exports.verification.tools import ToolMissing, folder_of, read_numbers, run_in, write_cells
 
 if TYPE_CHECKING:
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bbsd.exports.exported import Exported, Files
+
+MOST_VISITS = 5_000_000
+"""Visits of nodes in some twenty seconds."""
 
 DRIVER = """
 import struct
@@ -39,3 +43,8 @@ def run_pytrees(exported: Exported, files: Files, cells: NDArray[np.int64]) -> N
         write_cells(folder / "cells", cells)
         run_in(folder, sys.executable, "-I", "driver.py", *map(str, cells.shape))
         return read_numbers(folder / "numbers", len(cells))
+
+
+def most_cells_of_pytrees(exported: Exported) -> int:
+    """Return in how many joint cells the tree can be run in less than a minute."""
+    return MOST_VISITS // n_nodes(exported.controller)

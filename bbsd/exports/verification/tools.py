@@ -32,12 +32,21 @@ MOST_SAID = 2000
 """Characters of what a tool says that are shown."""
 
 
+def any_number(_: Exported) -> int:
+    """Return how many joint cells a tool goes through in some seconds that is as fast as machines are."""
+    return sys.maxsize
+
+
 class Runner(NamedTuple):
-    """A tool that runs what was written; where one that is `needed` is missing, it is not verified."""
+    """A tool that runs what was written; where one that is `needed` is missing, it is not verified.
+
+    `most_cells` says how many joint cells of a design it can go through in less than a minute.
+    """
 
     tool: str
     run: Run
     needed: bool = True
+    most_cells: Callable[[Exported], int] = any_number
 
 
 class ToolMissing(Exception):

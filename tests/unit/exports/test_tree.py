@@ -3,7 +3,7 @@ from hypothesis import given
 
 from bbsd.architecture.controller import Action, Controller, Dimension, Layer
 from bbsd.exports import tree
-from bbsd.exports.tree import Act, Condition, Group, nodes_of, silent_said, tree_of
+from bbsd.exports.tree import Act, Condition, Group, TooLongForATree, nodes_of, silent_said, tree_of
 from tests.unit.exports.controllers import controllers, joint_cells
 from tests.unit.exports.designs import SHIPPED, hand_made
 
@@ -123,3 +123,17 @@ def test_a_tree_is_never_deep_however_often_rules_change_to_no_action():
 
 def depth(node):
     return 1 + max(map(depth, getattr(node, "children", ())), default=0)
+
+
+def test_a_table_that_nobody_could_read_as_rules_is_refused():
+    size = 8000
+    table = bytes(cell * 7919 % 5 for cell in range(size))
+    controller = Controller(
+        "c",
+        "0" * 32,
+        (Dimension("x", tuple(map(str, range(size))), "x", is_condition=False),),
+        (Layer(1, "b", None, (0,), (size,), None, 1, table, 0, 4),),
+        tuple(Action(f"a{index}", "b", {}) for index in range(4)),
+    )
+    with pytest.raises(TooLongForATree, match=r"the rules of b have \d,\d\d\d words, more than 3,000"):
+        tree_of(controller)
