@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -64,7 +65,7 @@ class Kernels:
     lanes: int
     compiled: bool
     jobs: int = 1
-    """Threads that share the lanes; the outcome is the same for any number."""
+    """Threads or, where Python steps the environment, processes that share the lanes; they change no bit."""
     most_written_out: int = MOST_ROBOTS_WRITTEN_OUT
     """Robots up to this number are written one after the other, more in loops."""
     stepper: Callable[[], Stepper] | None = None
@@ -74,6 +75,16 @@ class Kernels:
     def is_stepped(self) -> bool:
         """Whether the environment is stepped in Python, between the phases of a kernel."""
         return self.stepper is not None or bool(self.meaning.episode.outside)
+
+    @cached_property
+    def alone(self) -> Kernels:
+        """The same rollouts with one job."""
+        return replace(self, jobs=1)
+
+    @cached_property
+    def recipe(self) -> bytes:
+        """The rollouts with one job, for another process to print and load."""
+        return pickle.dumps(replace(self, jobs=1))
 
     @cached_property
     def _batches(self) -> Any:  # noqa: ANN401 - a generated module

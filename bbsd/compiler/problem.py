@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.details import checked_slots
+from bbsd.compiler.divided import DividedTeam
 from bbsd.compiler.kernels import Kernels
 from bbsd.compiler.tables import Pool, TableShape, shape_of
 from bbsd.compiler.team import Team
@@ -103,7 +104,8 @@ class Problem:
             generation: counted from 1.
         """
         constants = np.array(self.meaning.constants.vector(generation), np.float64)
-        return Team(self.kernels, tuple(pools), members, constants)
+        make = DividedTeam if self.kernels.is_stepped and self.jobs > 1 else Team
+        return make(self.kernels, tuple(pools), members, constants)
 
 
 def compile_meaning(

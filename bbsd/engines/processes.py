@@ -69,7 +69,7 @@ class Processes:
             except BrokenExecutor:
                 place.executor.shutdown(wait=False)
                 place.executor = self._new_executor()
-                with _no_interrupts():
+                with _environment(), _no_interrupts():
                     future = place.executor.submit(function, *arguments)
             place.waiting += 1
         future.add_done_callback(lambda _future: self._count_down(place))
@@ -77,7 +77,7 @@ class Processes:
 
     def start(self) -> None:
         """Start them all, without waiting until they are there."""
-        with _no_interrupts():
+        with _environment(), _no_interrupts():
             for place in self._places:
                 place.executor.submit(_do_nothing)
 
@@ -116,18 +116,27 @@ class _Place:
     waiting: int = 0
 
 
+def started_processes(count: int, imports: Sequence[str] = ()) -> Processes:
+    """Start so many processes, which import these modules first; somebody must end them."""
+    cache_folder("compiled")  # a temporary one is then shared, and reported once
+    resource_tracker.ensure_running()  # it would unblock interrupts when it is started with the first worker
+    processes = Processes(count, imports)
+    try:
+        processes.start()
+    except BaseException:
+        processes.end()
+        raise
+    return processes
+
+
 @contextmanager
 def waiting_processes(count: int, imports: Sequence[str] = ()) -> Iterator[Processes]:
     """Start so many processes, which import these modules first, and end them at exit."""
-    cache_folder("compiled")  # a temporary one is then shared, and reported once
-    with _environment():
-        processes = Processes(count, imports)
-        resource_tracker.ensure_running()  # it would unblock interrupts when it is started with the first worker
-        try:
-            processes.start()
-            yield processes
-        finally:
-            processes.end()
+    processes = started_processes(count, imports)
+    try:
+        yield processes
+    finally:
+        processes.end()
 
 
 @contextmanager
