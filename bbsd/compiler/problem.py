@@ -13,6 +13,7 @@ from bbsd.compiler.details import checked_slots
 from bbsd.compiler.divided import DividedTeam
 from bbsd.compiler.kernels import Kernels
 from bbsd.compiler.tables import Pool, TableShape, shape_of
+from bbsd.compiler.tabulated import tabulated
 from bbsd.compiler.team import Team
 from bbsd.language.meaning.size import Size, size_of
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from bbsd.environments.stepping import Stepper
+    from bbsd.environments.tables import TransitionTable
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
 
@@ -44,6 +46,8 @@ class Problem:
     """Threads that share the lanes; the outcome is the same for any number."""
     stepper: Callable[[], Stepper] | None = None
     """Makes what steps the environment, if it is stepped in Python and may be imported."""
+    table: TransitionTable | None = None
+    """The transitions of the environment, if it is stepped by them instead."""
 
     @property
     def n_behaviors(self) -> int:
@@ -92,7 +96,12 @@ class Problem:
     def with_meaning(self, meaning: Meaning) -> Problem:
         """Return the problem of another meaning in the same environment, which runs as this one does."""
         return compile_meaning(
-            meaning, lanes=self.lanes, compiled=self.compiled, jobs=self.jobs, stepper=self.stepper
+            meaning,
+            lanes=self.lanes,
+            compiled=self.compiled,
+            jobs=self.jobs,
+            stepper=self.stepper,
+            table=self.table,
         )
 
     def assemble(self, pools: Sequence[Pool], members: Integers, generation: int) -> Team:
@@ -115,12 +124,16 @@ def compile_meaning(
     compiled: bool = True,
     jobs: int = 1,
     stepper: Callable[[], Stepper] | None = None,
+    table: TransitionTable | None = None,
 ) -> Problem:
     """Return the problem of a spec's meaning; its kernels are printed and compiled when they are first run.
 
     As plain Python, one lane at a time is the default. An environment that is stepped in Python needs a stepper before
-    the first episode. With one, the kernels of any spec are printed in phases.
+    the first episode. With one, the kernels of any spec are printed in phases. With a table of its transitions it needs
+    none, since nothing is stepped in Python; raises NotTabulated where the spec does not go with the table.
     """
+    if table is not None and meaning.episode.outside:
+        meaning = tabulated(meaning, table)
     structure = meaning.structure
     return Problem(
         meaning,
@@ -133,5 +146,6 @@ def compile_meaning(
         lanes or (DEFAULT_LANES if compiled else 1),
         compiled,
         jobs,
-        stepper,
+        None if table else stepper,
+        table,
     )

@@ -61,27 +61,21 @@ class Tabulated:
     probability: Node
 
 
-def tabulated(meaning: Meaning, table: TransitionTable, most_steps: int | None = None) -> Meaning:
+def tabulated(meaning: Meaning, table: TransitionTable) -> Meaning:
     """Return a meaning in which the environment steps by a table; nothing in it is stepped in Python.
 
-    Args:
-        meaning: of a spec with one robot, whose environment is stepped in Python.
-        table: the environment's transitions.
-        most_steps: the steps after which the environment ends an episode, if it does.
-
-    Raises:
-        NotTabulated: with words.
+    Raises NotTabulated where the spec cannot be stepped by the table.
     """
     outside = require_tabulable(meaning, table)
     graph = meaning.graph.fork()
     graph.bounded = False
-    return _Table(meaning, table, outside, graph).tabulated(None, most_steps).meaning
+    return _Table(meaning, table, outside, graph).tabulated(None).meaning
 
 
 def tabulated_with(meaning: Meaning, table: TransitionTable, graph: Graph, chances: Chances) -> Tabulated:
     """Return a meaning by a table whose chances are given, in a graph that begins with the meaning's nodes."""
     outside = require_tabulable(meaning, table)
-    return _Table(meaning, table, outside, graph).tabulated(chances, None)
+    return _Table(meaning, table, outside, graph).tabulated(chances)
 
 
 def require_tabulable(meaning: Meaning, table: TransitionTable) -> Outside:
@@ -167,7 +161,8 @@ class _Table:
         self._meaning, self._table, self._outside, self._graph = meaning, table, outside, graph
         self._columns = _Columns(graph, meaning.constants)
 
-    def tabulated(self, chances: Chances | None, most_steps: int | None) -> Tabulated:
+    def tabulated(self, chances: Chances | None) -> Tabulated:
+        """Return the meaning by the table; what is left to chance is drawn, or given."""
         table, graph, episode = self._table, self._graph, self._meaning.episode
         first = self._first_state(chances)
         state = graph.leaf("slot", STATE, Kind.NUMBER, Level.LANE)
@@ -178,9 +173,9 @@ class _Table:
         then = self._columns.read(table.next_states, at)
         probability = self._columns.read(table.probabilities, at) if chances else graph.number(1.0)
         ended = graph.apply("!=", self._columns.read(table.ended, at), graph.number(0))
-        if most_steps is not None:
+        if table.most_steps is not None and table.most_steps < self._meaning.spec.environment.steps:
             step = graph.leaf("step", None, Kind.NUMBER, Level.STEP)
-            ended = graph.apply("|", ended, graph.apply(">=", step, graph.number(most_steps)))
+            ended = graph.apply("|", ended, graph.apply(">=", step, graph.number(table.most_steps)))
         beginning = self._observed(first)
         given = {
             **self._observed(then),

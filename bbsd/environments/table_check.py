@@ -6,16 +6,18 @@ an environment that keeps something back, as Taxi with a fickle passenger does, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.environments.tables import NoTable, Transition, copied_table
+from bbsd.environments.opening import OtherEnvironment
+from bbsd.environments.tables import NoTable, Transition, copied_table, has_table
 from bbsd.kernel.streams import fold, name_word, unit
 
 if TYPE_CHECKING:
+    from bbsd.environments.opening import Opened
     from bbsd.environments.tables import Floats, Integers, TransitionTable
 
 Truths = npt.NDArray[np.bool_]
@@ -48,13 +50,39 @@ class TableCheck:
     """Those that there are, of states that an episode can come to."""
 
 
-def checked_table(environment: Any) -> tuple[TransitionTable, TableCheck]:  # noqa: ANN401 - any environment
-    """Return the table of an environment, unwrapped, after real steps that agreed with it.
+def checked_table(opened: Opened) -> tuple[TransitionTable, TableCheck] | None:
+    """Return the table of an environment after real steps that agreed with it; None where it claims to have none.
 
-    Raises NoTable where it has no usable table, or does not keep to it.
+    Raises NoTable where its table cannot be used, or the environment does not keep to it.
     """
-    table = copied_table(environment)
-    return table, check_table(environment, table)
+    environment = opened.make()
+    if not has_table(environment):
+        return None
+    table = replace(copied_table(environment), most_steps=opened.making.most_steps)
+    try:
+        return table, check_table(environment, table)
+    except NoTable:
+        raise
+    except Exception as error:  # noqa: BLE001 - all that somebody else's code may raise
+        raise NoTable(f"it failed: {type(error).__name__}: {error}") from None
+
+
+def table_again(opened: Opened, digest: str | None) -> TransitionTable | None:
+    """Return the table of an environment that another process has checked; None where that process steps without one.
+
+    Raises OtherEnvironment where it is not the same table.
+    """
+    if digest is None:
+        return None
+    try:
+        table = replace(copied_table(opened.make()), most_steps=opened.making.most_steps)
+    except NoTable as error:
+        raise OtherEnvironment(
+            f"{opened.name} has no table of transitions in a worker process: {error}"
+        ) from None
+    if table.digest != digest:
+        raise OtherEnvironment(f"{opened.name} has another table of transitions in a worker process")
+    return table
 
 
 def check_table(environment: Any, table: TransitionTable) -> TableCheck:  # noqa: ANN401 - any environment

@@ -54,6 +54,8 @@ class TransitionTable:
     ended: npt.NDArray[np.bool_]
     starts: Floats
     """The probability that an episode starts in a state, (n_states,)."""
+    most_steps: int | None = None
+    """The steps after which the environment ends an episode, if it does."""
 
     @property
     def n_states(self) -> int:
@@ -83,7 +85,7 @@ class TransitionTable:
     @cached_property
     def digest(self) -> str:
         """A digest of all numbers of the table."""
-        content = sha256(repr(self.probabilities.shape).encode())
+        content = sha256(repr((self.probabilities.shape, self.most_steps)).encode())
         for array in (self.probabilities, self.next_states, self.rewards, self.ended, self.starts):
             content.update(np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<")).tobytes())
         return content.hexdigest()[:32]

@@ -1,5 +1,7 @@
 """Environments by their tables: the same as the real ones, step by step, and as often as chance has it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -18,7 +20,8 @@ from tests.unit.tabular import CLIFF, ICE, LAKE, TAXI, environment_of, walk, wit
 
 
 def problem_by_table(text, **options):
-    return compile_meaning(tabulated(*with_table(text), **options), compiled=False)
+    meaning, table = with_table(text)
+    return compile_meaning(meaning, table=replace(table, **options), compiled=False)
 
 
 def fields_of(traced, names):
@@ -154,6 +157,17 @@ def test_an_environment_may_end_after_a_number_of_steps():
     traced = trace(problem, random_agents(problem, 0, 1).architecture(0), 1, 1)
 
     assert len(traced.steps) == 7
+
+
+def test_a_problem_by_a_table_stays_one_with_another_meaning_and_has_no_stepper():
+    meaning, table = with_table(LAKE)
+    problem = compile_meaning(meaning, table=table, stepper=lambda: None, compiled=False)
+    again = problem.with_meaning(meaning)
+
+    assert problem.stepper is None
+    assert not again.meaning.episode.outside
+    assert again.table is table
+    assert problem.with_meaning(problem.meaning).meaning is problem.meaning
 
 
 def test_nothing_is_stepped_in_python():

@@ -6,7 +6,8 @@ import gymnasium
 import numpy as np
 import pytest
 
-from bbsd.environments.table_check import check_table, checked_table
+from bbsd.environments.opening import OtherEnvironment
+from bbsd.environments.table_check import check_table, checked_table, table_again
 from bbsd.environments.tables import NoTable, copied_table
 
 
@@ -46,6 +47,12 @@ def test_an_environment_that_keeps_to_its_table_passes(slip):
     assert check.steps >= (24 if slip == 0.0 else 6000)
 
 
+def opened(environment, most_steps=None):
+    """What an opened environment is to the check."""
+    making = SimpleNamespace(most_steps=most_steps)
+    return SimpleNamespace(make=lambda: environment, making=making, name="Chain-v0")
+
+
 class OtherReward(Chain):
     def step(self, action):
         state, reward, *others = super().step(action)
@@ -83,6 +90,11 @@ class SlipsMore(Chain):
         return (self.state, -1.0, False, False, {}) if slipped else super().step(action)
 
 
+class Breaks(Chain):
+    def step(self, action):
+        raise ZeroDivisionError("no more")
+
+
 class SeesMore(Chain):
     def start(self):
         return 7
@@ -101,13 +113,14 @@ class SeesWords(Chain):
         (StartsElsewhere(), "began in state 2, which initial_state_distrib excludes"),
         (StartsMostlyAtTheFirst(0.5), "first states do not come as often"),
         (SlipsMore(0.3), "do not come as often as its table says"),
+        (Breaks(), "it failed: ZeroDivisionError: no more"),
         (SeesMore(), "observed 7, which is none of its 5 states"),
         (SeesWords(), "something else than the number of its state"),
     ],
 )
 def test_an_environment_that_does_something_else_is_found_out(liar, words):
     with pytest.raises(NoTable, match=words):
-        checked_table(liar)
+        checked_table(opened(liar))
 
 
 @pytest.mark.parametrize(
@@ -121,12 +134,33 @@ def test_an_environment_that_does_something_else_is_found_out(liar, words):
     ],
 )
 def test_environments_of_gymnasium_keep_to_their_tables(name, arguments, shape):
-    table, check = checked_table(gymnasium.make(name, **arguments).unwrapped)
+    table, check = checked_table(opened(gymnasium.make(name, **arguments).unwrapped, most_steps=100))
 
+    assert table.most_steps == 100
     assert table.probabilities.shape == shape
     assert check.tried == check.reachable
 
 
 def test_a_taxi_with_a_fickle_passenger_does_not_keep_to_its_table():
     with pytest.raises(NoTable, match="which its table does not list"):
-        checked_table(gymnasium.make("Taxi-v4", fickle_passenger=True).unwrapped)
+        checked_table(opened(gymnasium.make("Taxi-v4", fickle_passenger=True).unwrapped))
+
+
+def test_an_environment_without_a_table_has_none():
+    assert checked_table(opened(gymnasium.make("Blackjack-v1").unwrapped)) is None
+
+
+def test_another_process_uses_the_same_table_without_checking_it_again():
+    table, _ = checked_table(opened(Chain(0.3)))
+    stuck = Breaks(0.3)
+
+    assert table_again(opened(stuck), table.digest).digest == table.digest
+    assert table_again(opened(stuck), None) is None
+    with pytest.raises(
+        OtherEnvironment, match="Chain-v0 has another table of transitions in a worker process"
+    ):
+        table_again(opened(Chain(0.2)), table.digest)
+    with pytest.raises(OtherEnvironment, match="another table"):
+        table_again(opened(stuck, most_steps=9), table.digest)
+    with pytest.raises(OtherEnvironment, match="no table of transitions in a worker process: a prob"):
+        table_again(opened(Chain(-0.5)), table.digest)
