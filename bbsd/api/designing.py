@@ -12,6 +12,7 @@ from bbsd.architecture import designed_text, require_writable, tidy_tables
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation.visits import visits_after_design
+from bbsd.language.loading import loaded_again
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
 from bbsd.runs.interim import best_so_far
@@ -85,7 +86,7 @@ def design(
 
     Args:
         spec: A spec with holes.
-        seed: Seed of all random numbers.
+        seed: Seed of all random numbers, of draws in constants too, also where the spec is loaded already.
         runs: Number of independent runs; the best of their designs is kept.
         out: The folder to write, new or empty; by default the first free one under `runs/`.
         resume: Continue the same design in `out`, by default in the newest folder under `runs/` that holds it.
@@ -121,7 +122,7 @@ def design(
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     started = time.monotonic()
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_again(load(spec, seed=seed, overrides=overrides), seed=seed)
     opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
     problem = _problem_with_holes(loaded, opened, lanes, jobs)
     settings = settings_of(loaded.meaning)
@@ -133,7 +134,7 @@ def design(
         fickle = None if opened is None else _fickle(opened, loaded)
         budgets = _budgets(settings, problem, folder, more, within)
         if not resume or budgets != folder.budgets():
-            folder.write_run_file(run_identity, overrides, budgets, folder.result() or None, fickle)
+            folder.write_run_file(run_identity, loaded.overrides, budgets, folder.result() or None, fickle)
         command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
         listener = progress and _metrics_listener(command, progress)
         with _interruptible(command, loaded, overdue, keep_best=True):
@@ -148,7 +149,7 @@ def design(
         write_visits(folder.path, text, problem.names, visits)
         names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
         result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
-        folder.write_run_file(run_identity, overrides, budgets, result, fickle)
+        folder.write_run_file(run_identity, loaded.overrides, budgets, result, fickle)
         with _interruptible(command, loaded, overdue, keep_best=False):
             others = tuple(
                 rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
@@ -281,7 +282,7 @@ def price(
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_again(load(spec, seed=seed, overrides=overrides), seed=seed)
     opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
     problem = _problem_with_holes(loaded, opened, lanes)
     with located_reward_errors(loaded):

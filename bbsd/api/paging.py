@@ -146,10 +146,12 @@ def page(
         faults=degradations(loaded, wanted, seed=seed, episodes=few, progress=_part(progress, 70, 100)),
         comparison=None
         if other is None
-        else compare(loaded, other, episodes=max(2, episodes), seed=seed, overrides=overrides),
+        else compare(
+            loaded, load(other, seed=seed, overrides=overrides), episodes=max(2, episodes), seed=seed
+        ),
         other="" if other is None else _name(other),
         seed=seed,
-        overrides=tuple(overrides),
+        overrides=loaded.overrides,
         wanted_faults=tuple(faults),
     )
 

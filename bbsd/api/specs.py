@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bbsd.errors import Diagnosis, SpecError
-from bbsd.language.loading import Loaded
+from bbsd.language.loading import Loaded, loaded_again
 from bbsd.language.loading import check as check_source
 from bbsd.language.loading import load as load_source
 from bbsd.runs.storage.finished import design_file
@@ -25,15 +25,15 @@ AnySpec = str | Path | Loaded
 def load(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
     """Read and check a spec; random draws in its constants depend on the seed.
 
+    Overrides change a spec that is loaded already too; the draws in its constants were made when it was loaded.
+
     Raises:
         SpecError: with all mistakes of the spec, or if its file cannot be read.
         NoDesign: a folder that is no run, or a run without an answer.
     """
-    return (
-        spec
-        if isinstance(spec, Loaded)
-        else load_source(Source.read(design_file(Path(spec))), seed=seed, overrides=overrides)
-    )
+    if isinstance(spec, Loaded):
+        return loaded_again(spec, seed=spec.meaning.seed, overrides=overrides)
+    return load_source(Source.read(design_file(Path(spec))), seed=seed, overrides=overrides)
 
 
 def check(spec: str | Path) -> tuple[Diagnosis, ...]:

@@ -37,6 +37,7 @@ class Loaded:
 
     source: Source
     lineage: Lineage
+    overrides: tuple[str, ...]
     data: Data
     spec: Spec
     meaning: Meaning
@@ -54,7 +55,17 @@ def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loa
         SpecError: with all mistakes of the file in its order, 50 at most; or with those of the overrides alone, where
             there are any, and with a source that has an argument on each line.
     """
-    files = read_lineage(source)
+    return _loaded(read_lineage(source), seed, overrides)
+
+
+def loaded_again(loaded: Loaded, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
+    """Return a loaded spec with its constants drawn from this seed, and further overrides after its own; as `load`."""
+    if seed == loaded.meaning.seed and not overrides:
+        return loaded
+    return _loaded(loaded.lineage, seed, (*loaded.overrides, *overrides))
+
+
+def _loaded(files: Lineage, seed: int, overrides: Sequence[str]) -> Loaded:
     assignments = read_overrides(overrides)
     data = with_overrides(files.data, assignments, overrides)
     is_small = files.characters <= MAX_EXAMINED_TWICE
@@ -66,7 +77,7 @@ def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loa
         if in_overrides := [diagnosis for diagnosis in diagnoses if diagnosis.place.file == OVERRIDES]:
             raise SpecError(_capped(in_overrides), overrides_source(overrides))
         raise files.error(_capped(diagnoses))
-    return Loaded(source, files, data, meaning.spec, meaning)
+    return Loaded(files.source, files, tuple(overrides), data, meaning.spec, meaning)
 
 
 def check(source: Source, seed: int = 0) -> tuple[Diagnosis, ...]:

@@ -68,6 +68,13 @@ def _read(argument: str, line: int) -> Override | tuple[Diagnosis, ...]:
     document = read(Source(FILE, "\n" * (line - 1) + f"{key}: {match['value']}"))
     if document.diagnoses:
         return document.diagnoses
+    if document.data.keys() != {key}:
+        place = document.place(
+            next(path for path in ((other,) for other in document.data) if path != (key,)), on_key=True
+        )
+        return (
+            Diagnosis("BB028", "one argument sets one value", place, "give each PATH=VALUE its own --set"),
+        )
     segments = list(SEGMENT.finditer(match["path"]))
     path = tuple(int(segment["index"]) if segment["index"] else segment["key"] for segment in segments)
     columns = tuple(segment.start("index" if segment["index"] else "key") + 1 for segment in segments)

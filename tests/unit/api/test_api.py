@@ -285,6 +285,26 @@ def test_a_loaded_spec_is_taken_as_it_is(spec):
     assert bbsd.api.evaluate(loaded, exact=True).mean == 0.75
 
 
+def test_overrides_of_a_loaded_spec_are_used_and_recorded(tmp_path):
+    loaded = bbsd.api.load(SPEC, overrides=["environment.steps=4"])
+    found = bbsd.api.design(loaded, seed=3, out=tmp_path / "run", overrides=["environment.state.heating=1"])
+    note = json.loads((found.folder / "run.json").read_text())
+    assert (note["seed"], note["set"]) == (3, ["environment.steps=4", "environment.state.heating=1"])
+    again = bbsd.api.load(found.architecture)
+    assert (again.spec.environment.steps, again.data["environment"]["state"]["heating"]) == (4, 1)
+    text = bbsd.api.design(
+        SPEC, seed=3, out=tmp_path / "text", overrides=["environment.steps=4", "environment.state.heating=1"]
+    )
+    assert files(text.folder)[:2] == files(found.folder)[:2]
+
+
+def test_draws_in_constants_of_a_loaded_spec_are_those_of_the_design_s_seed(spec, tmp_path):
+    path = spec(SPEC.read_text() + "\nconstants: {odd: 'uniform(0, 1)'}\n")
+    one = bbsd.api.design(bbsd.api.load(path), seed=3, out=tmp_path / "one")
+    other = bbsd.api.design(path, seed=3, out=tmp_path / "other")
+    assert files(one.folder) == files(other.folder)
+
+
 def test_an_explanation_needs_a_design(designed):
     with pytest.raises(HolesLeft):
         bbsd.api.explain(SPEC)

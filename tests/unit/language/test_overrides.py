@@ -2,6 +2,7 @@ import pytest
 
 from bbsd.errors import SpecError
 from bbsd.language.loading import Loaded, load
+from bbsd.language.overrides import read_overrides
 from tests.unit.language.specs import source
 
 RULES = "behaviors: {stop: {rules: [{when: {reached: true}, do: halt}, {otherwise: no action}]}}\nstructure: [stop]\n"
@@ -126,3 +127,11 @@ def test_an_argument_of_several_lines_keeps_its_places() -> None:
         ("BB052", 2, 9), ("BB022", 4, 19),
     ]  # fmt: skip
     assert caught.value.source.line(2) == "  near: hight"
+
+
+def test_an_argument_sets_one_value() -> None:
+    with pytest.raises(SpecError) as error:
+        read_overrides(["constants.a=3\nconstants.b: 5"])
+    (found,) = error.value.diagnoses
+    assert (found.code, found.place.line, found.advice) == ("BB028", 2, "give each PATH=VALUE its own --set")
+    assert [each.value for each in read_overrides(['a="two\n\n  lines"', "b=3"])] == ["two\nlines", 3]
