@@ -125,7 +125,7 @@ def design(
     loaded = loaded_again(load(spec, seed=seed, overrides=overrides), seed=seed)
     opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
     problem = _problem_with_holes(loaded, opened, lanes, jobs)
-    settings = settings_of(loaded.meaning)
+    settings = settings_of(problem.meaning)
     if settings.method == "paper" and (more is not None or within is not None):
         raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
     run_identity = identity(loaded, seed, runs, None if opened is None else opened.plain())
@@ -286,7 +286,7 @@ def price(
     opened = opened_environment(loaded, allow_import, import_from, environment, step_limit, announce)
     problem = _problem_with_holes(loaded, opened, lanes)
     with located_reward_errors(loaded):
-        return price_of(problem, settings_of(loaded.meaning), seed, runs, jobs, starting)
+        return price_of(problem, settings_of(problem.meaning), seed, runs, jobs, starting)
 
 
 def _problem_with_holes(loaded: Loaded, opened: Opened | None, lanes: int, jobs: int = 1) -> Problem:

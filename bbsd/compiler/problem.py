@@ -60,6 +60,11 @@ class Problem:
         return tuple(table.name for table in self.tables)
 
     @property
+    def is_stepped(self) -> bool:
+        """Whether the environment is stepped in Python; not where a table of its transitions replaces it."""
+        return self.kernels.is_stepped
+
+    @property
     def learns_structure(self) -> bool:
         """Whether more than one structure is possible."""
         return self.meaning.structure.is_open

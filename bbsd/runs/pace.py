@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from bbsd.solver.paper.settings import Settings
 
 PACE = name_word("pace")
-DESIGNS = 200
+DESIGNS, DESIGNS_IN_PYTHON = 200, 10
+"""Designs that are run, and where the environment is stepped in Python."""
 LONG_ENOUGH = 0.1
 """Seconds of episodes by which the pace is known."""
 
@@ -22,7 +23,8 @@ LONG_ENOUGH = 0.1
 def budget_of(seconds: float, problem: Problem, settings: Settings) -> int:
     """Return the episodes that fit into so many seconds, once everything is compiled."""
     arena = Arena(problem, settings.coevolution.generations)
-    designs = arena.space.random(PACE, DESIGNS)
+    n_designs = DESIGNS_IN_PYTHON if problem.is_stepped else DESIGNS
+    designs = arena.space.random(PACE, n_designs)
     arena.returns(designs, PACE, 1)  # compiles
     episodes, taken = 1, 0.0
     while taken < LONG_ENOUGH:
@@ -30,4 +32,4 @@ def budget_of(seconds: float, problem: Problem, settings: Settings) -> int:
         began = time.perf_counter()
         arena.returns(designs, fold(PACE, episodes), episodes)
         taken = time.perf_counter() - began
-    return max(LEAST_BUDGET, int(seconds * DESIGNS * episodes / taken))
+    return max(LEAST_BUDGET, int(seconds * n_designs * episodes / taken))

@@ -15,7 +15,7 @@ from bbsd.language.meaning import seed_key
 from bbsd.language.meaning.structure import OPEN_LAYER
 from bbsd.runs.sampling import sample, sample_search
 from bbsd.solver.budget import automatic_budget
-from bbsd.solver.judgement import RANDOM_AGENTS, RANDOM_EPISODES
+from bbsd.solver.judgement import random_sample
 from bbsd.solver.race import FIRST_ROUND
 
 if TYPE_CHECKING:
@@ -94,10 +94,11 @@ def price(
     episode = measured.episode / measured.speedup
     rounds = -(-n_runs // processes)
     run = generations * measured.generation(agents) + (learning + raced) * episode
-    judging = _judged(settings) * episode
-    drawing = (rounds * settings.coevolution.population + RANDOM_AGENTS) * measured.random_agent
+    judged = _judged(problem, settings)
+    judging = judged * episode
+    drawing = (rounds * settings.coevolution.population + random_sample(problem)[0]) * measured.random_agent
     environment = problem.meaning.spec.environment
-    episodes, further = n_runs * learning, n_runs * raced + _judged(settings)
+    episodes, further = n_runs * learning, n_runs * raced + judged
     return Price(
         tables=_tables(problem),
         layers=len(problem.layers),
@@ -125,9 +126,10 @@ def _price_of_search(
     sampled = replace(problem, jobs=jobs // processes)
     measured = sample_search(sampled, settings, fold(seed_key(seed), SAMPLE), budget)
     rounds = -(-n_runs // processes)
-    further = settings.answer.judged + RANDOM_AGENTS * RANDOM_EPISODES
+    n_agents, n_episodes = random_sample(problem)
+    further = settings.answer.judged + n_agents * n_episodes
     episode = measured.episode / measured.speedup
-    drawing = RANDOM_AGENTS * measured.random_agent
+    drawing = n_agents * measured.random_agent
     environment = problem.meaning.spec.environment
     cells = sum(table.n_cells for table in problem.tables)
     return Price(
@@ -181,8 +183,9 @@ def _raced(settings: Settings) -> int:
     return min(settings.answer.candidates, agents) * min(RACED, settings.answer.episodes)
 
 
-def _judged(settings: Settings) -> int:
-    return settings.answer.judged + RANDOM_AGENTS * RANDOM_EPISODES + _lifetimes(settings)
+def _judged(problem: Problem, settings: Settings) -> int:
+    n_agents, n_episodes = random_sample(problem)
+    return settings.answer.judged + n_agents * n_episodes + _lifetimes(settings)
 
 
 def _bytes(problem: Problem, settings: Settings) -> int:
@@ -194,7 +197,7 @@ def _bytes(problem: Problem, settings: Settings) -> int:
     champions = settings.answer.candidates * cells
     generation = 3 * cells * (evolved.population + evolved.agents) + evolved.agents * agent + 2 * champions
     race = champions + settings.answer.candidates * NUMBER * RACED
-    return max(generation, race, champions + 3 * cells * RANDOM_AGENTS)
+    return max(generation, race, champions + 3 * cells * random_sample(problem)[0])
 
 
 def resident() -> int:

@@ -58,6 +58,7 @@ class Sample:
 
 def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     """Run generations as a run does, with more and more agents until they take long enough to be measured."""
+    jobs, problem = problem.jobs, _measurable(problem)
     first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
     state, _ = next_generation(
         initial_state(problem, settings, key), problem, settings.reduced(FEW, SHORT), key
@@ -85,13 +86,14 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     episodes = long - short if lifetime > SHORT else long - breeding
     episode = max(episodes, LEAST) / (n_agents * max(lifetime - SHORT, 1))
     agent = max((short - breeding) / n_agents - episode, 0.0)
-    speedup = min(max(1.0, long / clock), problem.jobs)
+    speedup = jobs if problem.is_stepped else min(max(1.0, long / clock), jobs)
     random_agent = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
     return Sample(max(0.0, first - second), breeding, agent, episode, random_agent, speedup)
 
 
 def sample_search(problem: Problem, settings: Settings, key: int, budget: int) -> Sample:
     """Run the first rounds of a search until they take long enough to be measured."""
+    jobs, problem = problem.jobs, _measurable(problem)
     course = Course(problem, replace(settings, budget=budget), key, 0)
     first, second = (_seconds(_rehearse_judgement, problem, settings, key) for _ in range(2))
     search = course.method.begin(course.arena, course.stream, search_budget(budget))
@@ -106,8 +108,16 @@ def sample_search(problem: Problem, settings: Settings, key: int, budget: int) -
         agent=0.0,
         episode=max(taken, LEAST) / max(search.spent, 1),
         random_agent=random_agent,
-        speedup=min(max(1.0, taken / passed), problem.jobs),
+        speedup=jobs if problem.is_stepped else min(max(1.0, taken / passed), jobs),
     )
+
+
+def _measurable(problem: Problem) -> Problem:
+    """Return the problem with all its work in this process: processor seconds of others are not known here.
+
+    Two processes stepped CartPole 1.94 times as fast as one.
+    """
+    return replace(problem, jobs=1) if problem.is_stepped else problem
 
 
 def _rehearse_judgement(problem: Problem, settings: Settings, key: int) -> None:

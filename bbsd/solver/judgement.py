@@ -38,6 +38,8 @@ BEST, JUDGED, RANDOM, LIFETIMES = (name_word(name) for name in ("best", "judged"
 
 RANDOM_AGENTS, RANDOM_EPISODES = 1000, 10
 """Random agents that a design is compared with, and the episodes of each."""
+RANDOM_IN_PYTHON = 200, 5
+"""The same where the environment is stepped in Python."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,9 +100,15 @@ def fresh_returns(architecture: Architecture, problem: Problem, settings: Settin
     return interval(returns_of(problem, agents_of([architecture]), fresh, generation)[0])
 
 
+def random_sample(problem: Problem) -> tuple[int, int]:
+    """Return how many random agents a design is compared with, and the episodes of each."""
+    return RANDOM_IN_PYTHON if problem.is_stepped else (RANDOM_AGENTS, RANDOM_EPISODES)
+
+
 def _random_returns(problem: Problem, generation: int, key: int) -> tuple[Interval, Selection]:
-    agents = random_agents(problem, key, RANDOM_AGENTS)
-    episodes = own_keys(key, RANDOM_AGENTS, RANDOM_EPISODES)
+    n_agents, n_episodes = random_sample(problem)
+    agents = random_agents(problem, key, n_agents)
+    episodes = own_keys(key, n_agents, n_episodes)
     outcomes = [
         (outcome.returns, np.any(outcome.terms != 0, axis=0))
         for outcome in detailed_outcomes(problem, agents, episodes, generation)
@@ -111,10 +119,10 @@ def _random_returns(problem: Problem, generation: int, key: int) -> tuple[Interv
     selection = Selection(
         float(returns[0]) if np.all(returns == returns[0]) else None,
         tuple(name for (name, term), is_earned in terms if not is_earned and not term.text.startswith("-")),
-        RANDOM_AGENTS,
+        n_agents,
         len(returns),
     )
-    return interval(row_means(returns.reshape(RANDOM_AGENTS, -1))), selection
+    return interval(row_means(returns.reshape(n_agents, -1))), selection
 
 
 def _lifetime_fitness(best: Architecture, problem: Problem, settings: Settings, key: int) -> Interval:

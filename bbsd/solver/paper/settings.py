@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.rates import Rates
 
+IN_PYTHON = {"episodes": 2_000, "judged": 1_000}
+"""Of the block `answer`, what is the default where the environment is stepped in Python."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Settings:
@@ -57,7 +60,7 @@ class Settings:
 
 
 def settings_of(meaning: Meaning) -> Settings:
-    """Return the settings of a spec."""
+    """Return the settings of a spec, given the meaning whose episodes run (`Problem.meaning`)."""
     design, learned = meaning.spec.design, meaning.structure.is_open
     elites = min(design.coevolution.elites, design.coevolution.population)
     learning = design.learning
@@ -68,10 +71,16 @@ def settings_of(meaning: Meaning) -> Settings:
         coevolution=design.coevolution.model_copy(update={"elites": elites}),
         learning=with_lifetime(learning, learning.episodes if learned else learning.last),
         culture=design.culture if learned and design.culture != "none" else None,
-        answer=design.answer,
+        answer=_answer_in_python(design.answer) if meaning.episode.outside else design.answer,
         learned=learned,
         rates=meaning.rates,
     )
+
+
+def _answer_in_python(answer: Answer) -> Answer:
+    """Return the settings of the answer where the environment is stepped in Python: fewer episodes unless given."""
+    fewer = {key: count for key, count in IN_PYTHON.items() if key not in answer.model_fields_set}
+    return answer.model_copy(update=fewer)
 
 
 def with_lifetime(learning: Learning, episodes: int) -> Learning:

@@ -1,6 +1,11 @@
+from dataclasses import replace
+
 import pytest
 
-from bbsd.runs.sampling import Sample, sample
+from bbsd.runs.sampling import Sample, sample, sample_search
+from bbsd.solver.paper.settings import settings_of
+from tests.unit.compiler.twins import CORRIDOR_OUTSIDE, Corridor
+from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 
 
@@ -15,3 +20,14 @@ def test_all_that_a_generation_takes_is_measured(structure):
     assert min(taken.breeding, taken.episode, taken.random_agent) > 0
     assert min(taken.compiling, taken.agent) >= 0
     assert taken.speedup == 1.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["hill", "paper"])
+def test_of_steps_in_python_one_process_is_measured_and_all_are_counted(method):
+    text = f"{CORRIDOR_OUTSIDE}\ndesign: {{method: {method}}}\n"
+    problem = replace(problem_of(text, jobs=3), stepper=Corridor)
+    settings = settings_of(problem.meaning)
+    taken = sample(problem, settings, 1) if method == "paper" else sample_search(problem, settings, 1, 5_000)
+    assert taken.speedup == 3
+    assert taken.episode > 1e-5  # a step of nine in plain Python takes longer than a microsecond

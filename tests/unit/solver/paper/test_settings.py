@@ -5,6 +5,7 @@ from bbsd.language.design import CultureSettings
 from bbsd.solver.paper.genetics import Breeding
 from bbsd.solver.paper.settings import settings_of
 from tests.unit.architecture.designs import meaning_of, shipped
+from tests.unit.compiler.twins import CORRIDOR_OUTSIDE
 
 SMALL = """
 bbsd: 1
@@ -92,3 +93,11 @@ def test_fewer_agents_and_shorter_lifetimes_leave_all_else_as_it_is():
     assert (reduced.coevolution.population, reduced.coevolution.elites) == (20, 0)
     more = whole.reduced(10_000, 10_000)
     assert (more.coevolution, more.learning) == (whole.coevolution, whole.learning)
+
+
+def test_where_python_steps_the_environment_fewer_episodes_choose_and_judge_unless_they_are_given():
+    fewer = settings_of(meaning_of(CORRIDOR_OUTSIDE)).answer
+    assert (fewer.episodes, fewer.judged) == (2_000, 1_000)
+    given = settings_of(meaning_of(f"{CORRIDOR_OUTSIDE}\ndesign: {{answer: {{judged: 5_000}}}}\n")).answer
+    assert (given.episodes, given.judged) == (2_000, 5_000)
+    assert settings().answer.judged == 5_000
