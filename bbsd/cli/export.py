@@ -26,6 +26,7 @@ class TargetName(StrEnum):
     PYTHON = "python"
     BTCPP = "btcpp"
     PYTREES = "pytrees"
+    ROS2 = "ros2"
 
 
 class Leaves(StrEnum):

@@ -7,7 +7,6 @@ Groups are reactive: at each tick the highest layer is asked first, even while a
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 from xml.sax.saxutils import escape as xml_escape
@@ -21,17 +20,17 @@ from bbsd.exports.described import (
     input_text,
     inputs_said,
     is_truth,
+    number_text,
     numbered_cells,
     sets_text,
 )
 from bbsd.exports.names import Names, words_of
 from bbsd.exports.tree import NOBODY, Act, Condition, Group, nodes_of, silent_said, tree_of
-from bbsd.language.meaning.partitions import TRUTH_CELLS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
 
-    from bbsd.architecture.controller import Action, Controller
+    from bbsd.architecture.controller import Controller, Dimension
     from bbsd.exports.exported import Exported, Files, Options
     from bbsd.exports.tree import Node, Tree
 
@@ -42,7 +41,6 @@ CELLS = "cells"
 """The port of a condition: the cells in which it succeeds."""
 MOST_RUNS = 20
 """Runs of neighboring cells in one script; its parser has a limit."""
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
 class Leaves(NamedTuple):
@@ -63,9 +61,9 @@ def write(exported: Exported, options: Options) -> Files:
         *_comment([*head_lines(controller), *said, *silent_said(tree)]),
         f'<root BTCPP_format="4" main_tree_to_execute={_quoted(leaves.tree)}>',
         f"  <BehaviorTree ID={_quoted(leaves.tree)}>",
-        *_element(controller, leaves, tree.root, "    ", is_custom=is_custom),
+        *_element(exported, leaves, tree.root, "    ", is_custom=is_custom),
         "  </BehaviorTree>",
-        *(_model(controller, leaves, tree) if is_custom else ()),
+        *(_model(exported, leaves, tree) if is_custom else ()),
         "</root>",
     ]
     return {f"{words_of(controller.name).lower() or 'design'}.xml": "\n".join(lines) + "\n"}
@@ -131,21 +129,21 @@ def _quoted(text: str) -> str:
 
 
 def _element(
-    controller: Controller, leaves: Leaves, node: Node, indent: str, *, is_custom: bool
+    exported: Exported, leaves: Leaves, node: Node, indent: str, *, is_custom: bool
 ) -> Iterator[str]:
     match node:
         case Group():
             element = ELEMENTS[node.kind]
             yield f"{indent}<{element} name={_quoted(node.text)}>"
             for child in node.children:
-                yield from _element(controller, leaves, child, f"{indent}  ", is_custom=is_custom)
+                yield from _element(exported, leaves, child, f"{indent}  ", is_custom=is_custom)
             yield f"{indent}</{element}>"
         case Condition() if is_custom:
-            yield from _custom_condition(controller, leaves, node, indent)
+            yield from _custom_condition(exported.controller, leaves, node, indent)
         case Condition():
-            yield from _script_condition(controller, leaves, node, indent)
+            yield from _script_condition(exported.controller, leaves, node, indent)
         case Act() if is_custom:
-            yield indent + _custom_action(controller, leaves, node)
+            yield indent + _custom_action(exported, leaves, node)
         case Act():
             yield f'{indent}<Script name={_quoted(node.text)} code="action := {node.action}"/>'
 
@@ -203,46 +201,55 @@ def _custom_condition(controller: Controller, leaves: Leaves, node: Condition, i
         yield f"{indent}</Inverter>"
 
 
-def _custom_action(controller: Controller, leaves: Leaves, node: Act) -> str:
+def _custom_action(exported: Exported, leaves: Leaves, node: Act) -> str:
     if node.action == NOBODY:
         return f"<AlwaysSuccess name={_quoted(node.text)}/>"
-    sets = controller.actions[node.action - 1].sets
-    ports = "".join(
-        f" {port}={_quoted(value)}" for port, value in zip(_ports(sets), sets.values(), strict=True)
-    )
+    ports = "".join(f" {port.name}={_quoted(port.value)}" for port in _ports(exported, node.action))
     return f"<{leaves.actions[node.action - 1]} name={_quoted(node.text)}{ports}/>"
 
 
-def _ports(sets: Mapping[str, str]) -> list[str]:
-    """Return the ports of an action: the names that it sets."""
-    names = Names(RESERVED)
-    return [_identifier(names, name, "set") for name in sets]
+class Port(NamedTuple):
+    """A port of an action: its name and type, and a number, a truth or an expression of the design."""
+
+    name: str
+    type: str
+    value: str
 
 
-def _model(controller: Controller, leaves: Leaves, tree: Tree) -> Iterator[str]:
+def _ports(exported: Exported, action: int) -> list[Port]:
+    """Return a port for each name that an action sets."""
+    names, fixed = Names(RESERVED), exported.fixed[action - 1]
+    return [
+        Port(_identifier(names, name, "set"), *_typed(fixed.get(name), expression))
+        for name, expression in exported.controller.actions[action - 1].sets.items()
+    ]
+
+
+def _typed(value: float | bool | None, expression: str) -> tuple[str, str]:
+    if value is None:
+        return "std::string", expression
+    return "bool" if isinstance(value, bool) else "double", number_text(value)
+
+
+def _model(exported: Exported, leaves: Leaves, tree: Tree) -> Iterator[str]:
     """Yield the model of the nodes that the tree uses, for Groot2."""
-    nodes = [*nodes_of(tree.root)]
+    nodes, dimensions = [*nodes_of(tree.root)], exported.controller.dimensions
     yield "  <TreeNodesModel>"
     for index in sorted({node.dimension for node in nodes if isinstance(node, Condition)}):
-        dimension, leaf = controller.dimensions[index], _quoted(leaves.inputs[index])
-        if is_truth(dimension):
-            yield f"    <Condition ID={leaf}/>"
-            continue
-        yield f"    <Condition ID={leaf}>"
-        said = xml_escape(escape(numbered_cells(dimension)))
-        yield f'      <input_port name="{CELLS}" type="std::vector&lt;int&gt;">{said}</input_port>'
-        yield "    </Condition>"
+        yield from _condition_model(dimensions[index], leaves.inputs[index])
     for number in sorted({node.action for node in nodes if isinstance(node, Act) and node.action != NOBODY}):
-        yield from _action_model(controller.actions[number - 1], leaves.actions[number - 1])
+        yield f'    <Action ID="{leaves.actions[number - 1]}">'
+        for port in _ports(exported, number):
+            yield f'      <input_port name="{port.name}" type="{port.type}" default={_quoted(port.value)}/>'
+        yield "    </Action>"
     yield "  </TreeNodesModel>"
 
 
-def _action_model(action: Action, leaf: str) -> Iterator[str]:
-    if not action.sets:
-        yield f"    <Action ID={_quoted(leaf)}/>"
+def _condition_model(dimension: Dimension, leaf: str) -> Iterator[str]:
+    if is_truth(dimension):
+        yield f'    <Condition ID="{leaf}"/>'
         return
-    yield f"    <Action ID={_quoted(leaf)}>"
-    for port, value in zip(_ports(action.sets), action.sets.values(), strict=True):
-        kind = "double" if NUMBER.fullmatch(value) else "bool" if value in TRUTH_CELLS else "std::string"
-        yield f'      <input_port name="{port}" type="{kind}" default={_quoted(value)}/>'
-    yield "    </Action>"
+    said = xml_escape(escape(numbered_cells(dimension)))
+    yield f'    <Condition ID="{leaf}">'
+    yield f'      <input_port name="{CELLS}" type="std::vector&lt;int&gt;">{said}</input_port>'
+    yield "    </Condition>"

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from bbsd.architecture.controller import Action, Controller, Dimension, Layer
     from bbsd.exports.names import Names
 
+WHOLE = 1e15
+"""Whole numbers below this are written without a decimal point."""
+
 
 def head_lines(controller: Controller) -> tuple[str, ...]:
     """Return what a file says first: which design it is, and what wrote it."""
@@ -103,3 +106,10 @@ def actions_said(controller: Controller) -> Iterator[str]:
 def sets_text(action: Action) -> str:
     """Return what an action sets, as the design writes it."""
     return "; ".join(f"{name}: {value}" for name, value in action.sets.items()) or "nothing"
+
+
+def number_text(value: float | bool) -> str:
+    """Return a number or a truth as targets read it: `0.5`, `-1`, `true`."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return repr(int(value)) if value.is_integer() and abs(value) < WHOLE else repr(value)

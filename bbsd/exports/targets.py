@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.exports import btcpp, c, python, pytrees
+from bbsd.exports import btcpp, c, python, pytrees, ros2
 from bbsd.exports.verification.behaviortree import most_cells_of_btcpp, run_btcpp
 from bbsd.exports.verification.compilers import run_gcc
 from bbsd.exports.verification.interpreters import run_cpython, run_micropython
@@ -44,6 +44,7 @@ TARGETS: Mapping[str, Target] = MappingProxyType(
             pytrees.write,
             (Runner("py_trees", run_pytrees, most_cells=most_cells_of_pytrees),),
         ),
+        "ros2": Target("a node of ROS 2 around the Python module, which nothing here runs", ros2.write, ()),
     }
 )
 """By the names that `--to` takes."""

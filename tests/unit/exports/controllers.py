@@ -80,7 +80,8 @@ def layer(draw, dimensions, index, first_action, n_actions):
 
 def exported(controller):
     """What writers take that look at the controller alone."""
-    return Exported(controller, {}, None, None)
+    fixed = tuple(dict.fromkeys([*each.sets][:1], 0.5) for each in controller.actions)
+    return Exported(controller, {}, None, None, fixed)
 
 
 def joint_cells(controller):
