@@ -2,8 +2,8 @@
 
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
-`evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `export`, `page` for `bbsd report`, `faults` for
-`evaluate --fault`, and `trace` for one episode; `bbsd.api` documents them.
+`evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `export`, `spaces`, `page` for `bbsd report`,
+`faults` for `evaluate --fault`, and `trace` for one episode; `bbsd.api` documents them.
 """
 
 import sys
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         faults,
         load,
         page,
+        spaces,
         tidy,
         trace,
         watch,
@@ -42,6 +43,7 @@ __all__ = [
     "faults",
     "load",
     "page",
+    "spaces",
     "tidy",
     "trace",
     "watch",

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bbsd.api.evaluating import evaluate
     from bbsd.api.explaining import explain
     from bbsd.api.exporting import Export, export
+    from bbsd.api.looking import NoEnvironment, Spaces, spaces
     from bbsd.api.paging import Page, page
     from bbsd.api.reasons import why
     from bbsd.api.results import (
@@ -43,6 +44,7 @@ HOMES = {
     "bbsd.api.evaluating": ("evaluate",),
     "bbsd.api.explaining": ("explain",),
     "bbsd.api.exporting": ("Export", "export"),
+    "bbsd.api.looking": ("NoEnvironment", "Spaces", "spaces"),
     "bbsd.api.paging": ("Page", "page"),
     "bbsd.api.reasons": ("why",),
     "bbsd.api.results": (
@@ -70,10 +72,12 @@ __all__ = [
     "Export",
     "Interrupted",
     "NoBudget",
+    "NoEnvironment",
     "NothingToDesign",
     "Page",
     "Progress",
     "SearchProgress",
+    "Spaces",
     "check",
     "compare",
     "compile",
@@ -85,6 +89,7 @@ __all__ = [
     "load",
     "page",
     "price",
+    "spaces",
     "tidy",
     "trace",
     "watch",

@@ -19,6 +19,7 @@ from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
 from bbsd.cli.output import never_fail_to_encode
 from bbsd.cli.schema import schema
+from bbsd.cli.spaces import spaces
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
@@ -41,6 +42,7 @@ app = typer.Typer(
 app.command()(new)
 app.command()(design)
 app.command()(evaluate)
+app.command()(spaces)
 app.command()(explain)
 app.command()(why)
 app.command()(tidy)

@@ -42,6 +42,7 @@ class Recipe:
 
     outside: Outside
     robots: int
+    """How many the spec has; 0 for as many as the environment has."""
     consent: Consent = field(default_factory=Consent)
     closed: tuple[str, ...] = ()
     """Folders from which nothing is imported unless the consent names them."""
@@ -203,6 +204,8 @@ def _require_robots(robots: int, agents: tuple[str, ...], outside: Outside) -> N
     if outside.kind == "pettingzoo" and not agents:
         message = f"{outside.target} names no possible_agents"
         raise UnfitError(Misfit("BB121", ("environment", outside.kind), message))
+    if not robots:
+        return
     if not agents and robots != 1:
         message = f"{outside.target} has one robot, not {robots}"
         raise UnfitError(Misfit("BB120", path, message, "write robots: 1, or leave it out"))
