@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 class NoEnvironment(UsageError):
     """A spec that names no environment, or not in the form of one."""
 
-    advice = f"write environment: {{gymnasium: {EXAMPLES['gymnasium']}}}, or pettingzoo: or python:"
+    advice = "write environment: {gymnasium: CartPole-v1}, or one of pettingzoo: or python:"
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +141,7 @@ def _outside(block: Mapping[str, Data]) -> Outside:
     """Return which environment a block names, with its arguments alone."""
     kinds = [kind for kind in OUTSIDE_KINDS if block.get(kind) is not None]
     if len(kinds) != 1:
-        found = "and ".join(kinds) or "none"
+        found = " and ".join(kinds) or "none"
         raise NoEnvironment(f"environment must name one of {', '.join(OUTSIDE_KINDS)}, and there is {found}")
     kind, target, arguments = kinds[0], block[kinds[0]], block.get("with") or {}
     if not isinstance(target, str) or not TARGETS[kind].fullmatch(target):
@@ -163,7 +163,7 @@ def _mistakes(
     outside = loaded.spec.environment.outside
     if outside is None:
         return None
-    found = misfits(outside, opened.observed, opened.taken, settings(loaded.meaning))
+    found = misfits(outside, opened.observed, opened.taken, settings(loaded.meaning), opened.making.label)
     return located(found, loaded.lineage) if found else None
 
 

@@ -56,7 +56,7 @@ def opened_for(
         opened = open_environment(recipe, announce)
     except UnfitError as error:
         raise located(error.misfits, loaded.lineage) from None
-    found = misfits(outside, opened.observed, opened.taken, settings(loaded.meaning))
+    found = misfits(outside, opened.observed, opened.taken, settings(loaded.meaning), opened.making.label)
     if found:
         raise located(found, loaded.lineage)
     return opened

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
 from bbsd.errors.expression_kinds import EXPRESSION_KINDS
 from bbsd.errors.kind import Severity
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
@@ -28,7 +29,7 @@ def in_order_of_codes(kinds: Iterable[DiagnosisKind]) -> dict[str, DiagnosisKind
 
 
 KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
-    (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS)
+    (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS, *ENVIRONMENT_KINDS)
 )
 
 

@@ -42,7 +42,7 @@ class Setting(NamedTuple):
 
 
 def misfits(
-    outside: Outside, observed: Space, taken: Space | None, settings: Iterable[Setting]
+    outside: Outside, observed: Space, taken: Space | None, settings: Iterable[Setting], label: str = ""
 ) -> list[Misfit]:
     """Return where a spec does not fit the spaces of its environment; none where all fits.
 
@@ -51,14 +51,15 @@ def misfits(
         observed: the space of observations.
         taken: the space of actions; None where the environment names none.
         settings: the literal values that the spec gives to state.
+        label: the environment's name without version, for names that are proposed.
     """
-    found = [*_observation_misfits(outside.fields, observed), *_action_misfits(outside.actions, taken)]
+    found = [*_observation_misfits(outside.fields, observed, label), *_action_misfits(outside.actions, taken)]
     if taken is not None and n_sent(taken) == len(outside.actions):
         found += _value_misfits(outside.actions, taken, settings)
     return found
 
 
-def _observation_misfits(fields: Sequence[Field], space: Space) -> Iterator[Misfit]:
+def _observation_misfits(fields: Sequence[Field], space: Space, label: str) -> Iterator[Misfit]:
     with_path = [field for field in fields if field.path is not None]
     with_size = [field for field in fields if field.size is not None]
     if with_path:
@@ -69,14 +70,14 @@ def _observation_misfits(fields: Sequence[Field], space: Space) -> Iterator[Misf
         for field in with_path:
             yield from _path_misfits(field.name, field.path or (), space)
     elif with_size:
-        yield from _size_misfits(fields, space)
+        yield from _size_misfits(fields, space, label)
     else:
-        yield from _list_misfits(len(fields), space)
+        yield from _list_misfits(len(fields), space, label)
 
 
-def _list_misfits(n_names: int, space: Space) -> Iterator[Misfit]:
+def _list_misfits(n_names: int, space: Space, label: str) -> Iterator[Misfit]:
     n_numbers = count(space)
-    proposal = f"write observation: {observation_text(space)}"
+    proposal = f"write observation: {observation_text(space, label)}"
     if n_numbers is None:
         yield Misfit("BB116", OBSERVATION, f"an observation is {space}, which is not all numbers", proposal)
     elif n_numbers != n_names:
@@ -87,10 +88,10 @@ def _list_misfits(n_names: int, space: Space) -> Iterator[Misfit]:
         yield Misfit("BB113", OBSERVATION, message, proposal)
 
 
-def _size_misfits(fields: Sequence[Field], space: Space) -> Iterator[Misfit]:
+def _size_misfits(fields: Sequence[Field], space: Space, label: str) -> Iterator[Misfit]:
     sizes = [field.size or 1 for field in fields]
     wanted = _sizes_of(space)
-    proposal = f"write observation: {observation_text(space)}"
+    proposal = f"write observation: {observation_text(space, label)}"
     if isinstance(space, Discrete):
         if prod(sizes) != space.n:
             product = " * ".join(map(str, sizes)) + (f" = {prod(sizes)}" if len(sizes) > 1 else "")

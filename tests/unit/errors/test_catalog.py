@@ -4,6 +4,7 @@ import pytest
 
 from bbsd.errors import KINDS, DiagnosisKind, Severity, describe
 from bbsd.errors.catalog import in_order_of_codes
+from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
 from bbsd.errors.expression_kinds import EXPRESSION_KINDS
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
@@ -11,7 +12,10 @@ from bbsd.errors.text_kinds import TEXT_KINDS
 
 
 def test_codes_are_unique_and_ordered_by_their_numbers() -> None:
-    listed = [kind.code for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS)]
+    listed = [
+        kind.code
+        for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS, *ENVIRONMENT_KINDS)
+    ]
     assert len(KINDS) == len(listed)
     assert list(KINDS) == sorted(listed, key=lambda code: int(code.removeprefix("BB")))
     assert all(re.fullmatch(r"BB\d{3,}", code) for code in KINDS)

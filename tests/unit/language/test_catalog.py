@@ -7,6 +7,7 @@ import pytest
 
 import bbsd
 from bbsd.errors import KINDS, Diagnosis, SpecError
+from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
 from bbsd.expression import graph
 from bbsd.language.loading import check, load
 from bbsd.text import Source, read
@@ -15,7 +16,8 @@ from tests.unit.language.specs import source
 PACKAGE = Path(bbsd.__file__).parent
 CATALOG = PACKAGE / "errors"
 NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB029", "BB045", "BB048"}
-"""What no few lines can show: files that are missing or no text, what is too large, what only a run finds."""
+NO_EXAMPLES |= {kind.code for kind in ENVIRONMENT_KINDS}
+"""What no few lines can show: missing files, files of no text, what is too large, what a run or an import finds."""
 
 
 def reported(example: str) -> tuple[Diagnosis, ...]:

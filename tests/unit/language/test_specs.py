@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from bbsd.errors import KINDS
+from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
 from bbsd.expression import graph
 from bbsd.language.loading import check
 from bbsd.text import Source
@@ -15,8 +16,8 @@ SPECS = Path(__file__).parents[2] / "specs"
 INVALID = sorted((SPECS / "invalid").glob("*.yaml"))
 VALID = sorted((SPECS / "valid").glob("*.yaml"))
 EXPECTED = re.compile(r"# expect: (.*)$")
-WITHOUT_FILE = {"BB001", "BB002", "BB028", "BB045", "BB048"}
-"""No such file, too large a file, an argument of the command line, and what only a run finds."""
+WITHOUT_FILE = {"BB001", "BB002", "BB028", "BB045", "BB048", *(kind.code for kind in ENVIRONMENT_KINDS)}
+"""No such file, too large a file, an argument of the command line, and what only a run or an import finds."""
 
 
 @pytest.fixture(autouse=True)
