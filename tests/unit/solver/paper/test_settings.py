@@ -98,6 +98,6 @@ def test_fewer_agents_and_shorter_lifetimes_leave_all_else_as_it_is():
 def test_where_python_steps_the_environment_fewer_episodes_choose_and_judge_unless_they_are_given():
     fewer = settings_of(meaning_of(CORRIDOR_OUTSIDE)).answer
     assert (fewer.episodes, fewer.judged) == (2_000, 1_000)
-    given = settings_of(meaning_of(f"{CORRIDOR_OUTSIDE}\ndesign: {{answer: {{judged: 5_000}}}}\n")).answer
+    given = settings_of(meaning_of(f"{CORRIDOR_OUTSIDE}\ndesign: {{answer: {{judged: 5000}}}}\n")).answer
     assert (given.episodes, given.judged) == (2_000, 5_000)
     assert settings().answer.judged == 5_000
