@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
@@ -16,6 +16,7 @@ from tests.interpreter.constants import read_constants
 from tests.interpreter.episode import run_episode
 from tests.interpreter.made_up import specs
 from tests.interpreter.made_up_designs import random_agents
+from tests.interpreter.made_up_outside import MadeUpLanes, MadeUpWorld, with_world_outside
 
 SPECS = Path(__file__).parents[2] / "specs"
 SHIPPED = sorted((*SPECS.glob("*.yaml"), *SPECS.glob("tasks/*.yaml")))
@@ -45,7 +46,8 @@ def compared(problem, seed, generation, n_agents, agents_seed):
         chosen = zip(agents.pools, agents.members[agent], strict=True)
         tables = [pool[member].tolist() for pool, member in chosen]
         structure, key = agents.structures[agent].tolist(), int(agents.keys[agent])
-        expected = run_episode(spec, constants, tables, structure, key)
+        world = MadeUpWorld(spec.environment, key) if spec.environment.outside else None
+        expected = run_episode(spec, constants, tables, structure, key, world)
         assert digits([outcome.returns[agent]]) == digits([expected.return_])
         assert digits(outcome.credit[agent]) == digits(expected.credit)
         assert digits([detailed.returns[agent]]) == digits([expected.return_])
@@ -103,3 +105,27 @@ def test_plain_kernels_of_specs_that_are_made_up(data, seed, generation, lanes):
     spec = Spec.model_validate(data)
     problem = compile_meaning(meaning_of(spec, seed), lanes=lanes, compiled=False)
     compared(problem, seed, generation, n_agents=3, agents_seed=seed)
+
+
+OUTSIDE = (
+    (["x", "_"], ["place", "y"]),
+    ({"place": 5, "unused": 3}, "x"),
+    ({"x": "image[3,5]", "place": "deep.er"}, "y"),
+)
+"""What of a made-up spec is observed in a world stepped in Python, and what that is told."""
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(specs(), st.sampled_from(OUTSIDE), st.integers(0, 2**32), st.sampled_from([1, 2]))
+def test_plain_kernels_of_worlds_that_are_stepped_in_python(data, exchanged, seed, lanes):
+    spec = Spec.model_validate(with_world_outside(data, *exchanged))
+    meaning, mistakes = elaborate(spec, seed)
+    assume(not mistakes)  # an index by what need not be whole, now that it is observed
+    episode = meaning.episode
+    problem = compile_meaning(
+        meaning,
+        lanes=lanes,
+        compiled=False,
+        stepper=lambda: MadeUpLanes(spec.environment, episode.outside, episode.sent),
+    )
+    compared(problem, seed, 1, n_agents=3, agents_seed=seed)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.syntax.tree import Call
 from bbsd.kernel.functions import clamp_index
-from bbsd.language.field_types import Expression
+from bbsd.language.field_types import Expression, expression
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, When
 from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 
@@ -50,10 +50,13 @@ def named_cell(cells: dict[str, Expression], place: str, scope_at: Callable[[str
 
 
 def partitions(behavior: Behavior, spec: Spec) -> dict[str, Partition]:
-    """A behavior's own partitions, or the sensors and the truths of the state that it lists."""
+    """A behavior's own partitions, or the sensors, truths of the state and observations with a size that it lists."""
     if isinstance(behavior.inputs, dict):
         return behavior.inputs
-    listed = {**spec.environment.state, **spec.environment.sensors}
+    outside = spec.environment.outside
+    sizes = {field.name: field.size for field in outside.fields if field.size} if outside else {}
+    observed = {name: expression(f"values({name}, 0, {size - 1})") for name, size in sizes.items()}
+    listed = {**observed, **spec.environment.state, **spec.environment.sensors}
     return {name: listed[name] for name in behavior.inputs}
 
 

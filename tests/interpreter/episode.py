@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from bbsd.language.field_types import Expression
     from bbsd.language.models import Spec
+    from tests.interpreter.made_up_outside import Given, MadeUpWorld
 
 NOBODY = -1
 
@@ -65,6 +66,8 @@ class Episode:
     constants: Mapping[str, Value]
     definitions: Mapping[str, Definition]
     key: int
+    world: MadeUpWorld | None = None
+    """The world, where it is stepped in Python."""
 
     @property
     def robots(self) -> range:
@@ -99,9 +102,10 @@ def run_episode(
     tables: Sequence[Sequence[int]],
     structure: Sequence[int],
     lane_key: int,
+    world: MadeUpWorld | None = None,
 ) -> Result:
     """One episode of a design; all that it draws follows from lane_key."""
-    episode = Episode(spec, constants, definitions(spec), lane_key)
+    episode = Episode(spec, constants, definitions(spec), lane_key, world)
     design = Design(tables, structure)
     result = Result(0.0, [0.0] * (len(spec.behaviors) + 1), [0.0] * len(spec.reward))
     result.controlled = [0] * (len(spec.behaviors) + 1)
@@ -110,14 +114,17 @@ def run_episode(
     for step in range(1, spec.environment.steps + 1):
         snapshot = replace(moment, step=step, before=None)
         controlling = [controls(episode, design, snapshot, robot) for robot in episode.robots]
-        moment = sense(episode, move(episode, act(episode, design, snapshot, controlling)))
+        acted = act(episode, design, snapshot, controlling)
+        given, is_over = outside(episode, acted)
+        moved = move(episode, acted)
+        moment = sense(episode, changed(moved, given, before=moved.before))
         terms = [reward_terms(episode, moment, robot) for robot in episode.robots]
         account(result, controlling, terms)
         result.steps = step
         came = [expectation(episode, moment, *pair) for pair in zip(controlling, episode.robots, strict=True)]
         count(result, list(spec.behaviors), controlling, came)
         result.trace.append(Step(controlling, terms, came, seen(episode, moment)))
-        if ended(episode, moment):
+        if is_over or ended(episode, moment):
             break
     mean_over_robots(result, float(len(episode.robots)))
     return result
@@ -126,11 +133,14 @@ def run_episode(
 def start(episode: Episode) -> Moment:
     """Starting values and sensors, each computed when another first asks for it."""
     environment, fixed = episode.spec.environment, episode.fixed()
+    given = episode.world.begin() if episode.world else {}
 
     @cache
     def value(name: str, robot: int) -> Value:
         if name in fixed:
             return fixed[name]
+        if (name, robot) in given:
+            return given[name, robot]
         now = Moment(value)
         if name in environment.world:
             return episode.evaluate(f"environment.world.{name}", environment.world[name], 0, now)
@@ -195,6 +205,16 @@ def act(episode: Episode, design: Design, snapshot: Moment, controlling: Sequenc
     return changed(snapshot, assigned, before=snapshot)
 
 
+def outside(episode: Episode, acted: Moment) -> tuple[Given, bool]:
+    """What an environment in Python gives when it is told the state after the actions, and whether it ends."""
+    if episode.world is None:
+        return {}, False
+    names = episode.world.sent_names
+    return episode.world.step(
+        {(name, robot): float(acted.value(name, robot)) for name in names for robot in episode.robots}
+    )
+
+
 def move(episode: Episode, moment: Moment) -> Moment:
     """The dynamics, all at once."""
     moved = {}
@@ -226,7 +246,8 @@ def settled(episode: Episode, moment: Moment) -> Moment:
 
 def seen_names(episode: Episode) -> list[str]:
     environment = episode.spec.environment
-    return [*environment.world, *environment.state, *environment.sensors]
+    given = [*episode.world.sizes, "earned"] if episode.world else []
+    return [*environment.world, *environment.state, *given, *environment.sensors]
 
 
 def changed(moment: Moment, values: Mapping[tuple[str, int], Value], before: Moment | None) -> Moment:
