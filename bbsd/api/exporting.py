@@ -25,6 +25,12 @@ class NoSuchTarget(UsageError):
     advice = f"the targets are {', '.join(TARGETS)}"
 
 
+class NoLeaves(UsageError):
+    """Leaves are asked for of a target that has none, or that has one kind of them."""
+
+    advice = "the target btcpp has custom leaves"
+
+
 @dataclass(frozen=True, slots=True)
 class Export:
     """A design in another language: the texts of files by name, the main one first, and what came of verifying them."""
@@ -78,9 +84,12 @@ def export(
         SpecError: with all mistakes of the spec.
         HolesLeft: the spec has holes.
         NoSuchTarget: there is no such target.
+        NoLeaves: another target than btcpp has no custom leaves.
     """
     if to not in TARGETS:
         raise NoSuchTarget(f"{to!r} is no target{did_you_mean(to, TARGETS)}")
+    if leaves != "script" and to != "btcpp":
+        raise NoLeaves(f"{to} has no {leaves} leaves")
     loaded = load(spec, seed=seed, overrides=overrides)
     exported = exported_design(loaded.meaning, architecture_of(loaded.meaning))
     target = TARGETS[to]

@@ -32,6 +32,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.blackboard import Client
 from py_trees.common import Access, Status
 from py_trees.composites import Selector, Sequence
+from py_trees.display import ascii_tree
 from py_trees.trees import BehaviourTree
 """
 
@@ -77,6 +78,12 @@ class Controller:
         self.blackboard.register_key(key="action", access=Access.READ)
 '''
 
+MAIN = """
+
+if __name__ == "__main__":
+    print(ascii_tree(create_root()))
+"""
+
 
 def write(exported: Exported, options: Options) -> Files:  # noqa: ARG001 - all targets are written alike
     """Return the module's text by its file's name."""
@@ -89,7 +96,8 @@ def write(exported: Exported, options: Options) -> Files:  # noqa: ARG001 - all 
             "",
             "Set the cells of the inputs on the blackboard, and tick the tree once a step: it succeeds, and sets "
             "action. Or let Controller do so: command() returns the number of the controlling action, 0 for nobody's, "
-            "by which commands stay as they are. Groups have no memory: at each tick the highest layer is asked first.",
+            "by which commands stay as they are. Groups have no memory: at each tick the highest layer is asked "
+            "first. Run as a program, it draws the tree.",
             "",
             *inputs_said(controller, keys),
             *actions_said(controller),
@@ -110,6 +118,7 @@ def write(exported: Exported, options: Options) -> Files:  # noqa: ARG001 - all 
         *CONTROLLER.splitlines(),
         "",
         *_command(keys),
+        *MAIN.splitlines(),
     ]
     return {f"{stem}_tree.py": "\n".join(lines) + "\n"}
 

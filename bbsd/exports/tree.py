@@ -178,8 +178,8 @@ def _with_rules(
     action = _act(controller, layer, decision)
     if not all(places):  # the last rule: it holds everywhere
         return action
-    where = [_group("sequence", "where", place) for place in places]
-    rule = _group("sequence", action.text, [_group("fallback", "where", where), action])
+    where = [_group("sequence", "all of", place) for place in places]
+    rule = _group("sequence", action.text, [_group("fallback", "any of", where), action])
     return rule if rest is None else _group("fallback", layer.behavior, [rule, rest])
 
 
@@ -202,7 +202,7 @@ def _unless(controller: Controller, place: Sequence[Condition]) -> Node:
         )
         for each in place
     ]
-    return _group("fallback", "where", opposites)
+    return _group("fallback", "any of", opposites)
 
 
 def _condition(controller: Controller, axis: int, cells: tuple[int, ...]) -> Condition:

@@ -70,3 +70,25 @@ def test_a_target_must_be_one(words):
     code, _, err = bbsd("export", DESIGN, *words)
     assert code == 2
     assert "--to" in err
+
+
+def test_a_tree_is_written_and_run_by_its_library(tmp_path):
+    pytest.importorskip("behaviortreepy")
+    words = ("--to", "btcpp", "--leaves", "custom", "-o", tmp_path / "lift.xml", "--verify")
+    code, _, err = bbsd("export", DESIGN, *words)
+    assert code == 0
+    assert "behaviortreepy: 72 of 72 cells equal" in err
+    assert "<TreeNodesModel>" in (tmp_path / "lift.xml").read_text()
+
+
+def test_what_nothing_runs_is_not_verified():
+    code, out, err = bbsd("export", DESIGN, "--to", "ros2", "--verify")
+    assert code == 1
+    assert "nothing here runs ros2: not verified" in err
+    assert "import rclpy" in out
+
+
+def test_custom_leaves_are_those_of_one_target():
+    code, out, err = bbsd("export", DESIGN, "--to", "c", "--leaves", "custom")
+    assert (code, out) == (2, "")
+    assert "c has no custom leaves" in err
