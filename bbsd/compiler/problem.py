@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 DEFAULT_LANES = 40
 
+Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
 

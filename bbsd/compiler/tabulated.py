@@ -6,12 +6,13 @@ key. So a spec of such an environment is compiled like one whose world is its ow
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bbsd.compiler.columns import Columns
 from bbsd.expression.graph import Graph, Level, Node, replace_leaves, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import HIDDEN, Slot
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 
     from bbsd.environments.tables import TransitionTable
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.constants import Constants
     from bbsd.language.outside import Outside
 
     Floats = NDArray[np.float64]
@@ -42,25 +42,6 @@ class NotTabulated(Exception):
     """A spec that cannot be stepped by a table of transitions; the message says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Chances:
-    """What is left to chance in a step by a table, as whole numbers that are given instead of drawn.
-
-    `start` chooses among the states that an episode may begin in, `outcome` among what may follow.
-    """
-
-    start: Node
-    outcome: Node
-
-
-@dataclass(frozen=True, slots=True)
-class Tabulated:
-    """A meaning by a table of transitions, and how likely the outcome of a step is."""
-
-    meaning: Meaning
-    probability: Node
-
-
 def tabulated(meaning: Meaning, table: TransitionTable) -> Meaning:
     """Return a meaning in which the environment steps by a table; nothing in it is stepped in Python.
 
@@ -69,13 +50,7 @@ def tabulated(meaning: Meaning, table: TransitionTable) -> Meaning:
     outside = require_tabulable(meaning, table)
     graph = meaning.graph.fork()
     graph.bounded = False
-    return _Table(meaning, table, outside, graph).tabulated(None).meaning
-
-
-def tabulated_with(meaning: Meaning, table: TransitionTable, graph: Graph, chances: Chances) -> Tabulated:
-    """Return a meaning by a table whose chances are given, in a graph that begins with the meaning's nodes."""
-    outside = require_tabulable(meaning, table)
-    return _Table(meaning, table, outside, graph).tabulated(chances)
+    return _Table(meaning, table, outside, graph).tabulated()
 
 
 def require_tabulable(meaning: Meaning, table: TransitionTable) -> Outside:
@@ -122,56 +97,23 @@ def _possible_values(meaning: Meaning, slot: Slot) -> set[float] | None:
     return values
 
 
-class _Columns:
-    """Columns of numbers behind the constants of a spec, read at an index."""
-
-    def __init__(self, graph: Graph, constants: Constants) -> None:
-        self._graph, self._constants = graph, constants
-        self._added: list[Node] = []
-
-    def read(self, column: Floats | Integers, index: Node) -> Node:
-        """Return the element of a column at an index; a literal where all are the same."""
-        nodes = self._numbers(column)
-        return nodes[0] if all(node is nodes[0] for node in nodes) else self._add(nodes)(index)
-
-    def reader(self, column: Floats) -> Reader:
-        """Return a column that is read at several indices."""
-        return self._add(self._numbers(column))
-
-    def _numbers(self, column: Floats | Integers) -> list[Node]:
-        return [self._graph.number(value) for value in column.ravel().tolist()]
-
-    def _add(self, nodes: list[Node]) -> Reader:
-        base = len(self._constants.scalars) + len(self._added)
-        self._added += nodes
-        return lambda index: self._graph.gather(base, (1,), (len(nodes),), (index,))
-
-    @property
-    def constants(self) -> Constants:
-        """The constants, and what was added."""
-        scalars = (*self._constants.scalars, *self._added)
-        wholes = (*self._constants.wholes, *(value_of(node).is_integer() for node in self._added))
-        return replace(self._constants, scalars=scalars, wholes=wholes)
-
-
 class _Table:
     """The nodes of a table of transitions in the graph of a meaning."""
 
     def __init__(self, meaning: Meaning, table: TransitionTable, outside: Outside, graph: Graph) -> None:
         self._meaning, self._table, self._outside, self._graph = meaning, table, outside, graph
-        self._columns = _Columns(graph, meaning.constants)
+        self._columns = Columns(graph, meaning.constants)
 
-    def tabulated(self, chances: Chances | None) -> Tabulated:
-        """Return the meaning by the table; what is left to chance is drawn, or given."""
+    def tabulated(self) -> Meaning:
+        """Return the meaning by the table."""
         table, graph, episode = self._table, self._graph, self._meaning.episode
-        first = self._first_state(chances)
+        first = self._first_state()
         state = graph.leaf("slot", STATE, Kind.NUMBER, Level.LANE)
         action = episode.acted[Slot(self._outside.actions[0], 0)]
         row = self._plus(self._times(state, table.n_actions), action)
-        outcome = self._outcome(row, chances)
-        at = self._plus(self._times(row, table.n_outcomes), outcome)
+        first_outcome = self._times(row, table.n_outcomes)
+        at = self._plus(first_outcome, self._chosen(OUTCOME, table.cumulative, first_outcome))
         then = self._columns.read(table.next_states, at)
-        probability = self._columns.read(table.probabilities, at) if chances else graph.number(1.0)
         ended = graph.apply("!=", self._columns.read(table.ended, at), graph.number(0))
         if table.most_steps is not None and table.most_steps < self._meaning.spec.environment.steps:
             step = graph.leaf("step", None, Kind.NUMBER, Level.STEP)
@@ -192,24 +134,11 @@ class _Table:
             sent=(),
             fractions=frozenset(),
         )
-        constants = self._columns.constants
-        meaning = replace(self._meaning, graph=graph, constants=constants, episode=episode)
-        return Tabulated(meaning, probability)
+        return replace(self._meaning, graph=graph, constants=self._columns.constants, episode=episode)
 
-    def _first_state(self, chances: Chances | None) -> Node:
-        starts = self._table.starts
-        states = np.flatnonzero(starts > 0.0)
-        if chances:
-            return self._columns.read(states, chances.start)
-        cumulative = np.cumsum(starts[states])
-        cumulative[-1] = 1.0
+    def _first_state(self) -> Node:
+        states, cumulative = self._table.first_states
         return self._columns.read(states, self._chosen(START, cumulative, None))
-
-    def _outcome(self, row: Node, chances: Chances | None) -> Node:
-        if chances:
-            return chances.outcome
-        base = self._times(row, self._table.n_outcomes)
-        return self._chosen(OUTCOME, self._table.cumulative, base)
 
     def _chosen(self, word: int, cumulative: Floats, base: Node | None) -> Node:
         """Return the first place whose cumulative probability is greater than a number drawn, by bisection.

@@ -83,6 +83,14 @@ class TransitionTable:
         return np.where(later > 0.0, sums, 1.0)
 
     @cached_property
+    def first_states(self) -> tuple[Integers, Floats]:
+        """The states that an episode may start in, and the probability of one or one before it; (n,) each."""
+        states = np.flatnonzero(self.starts > 0.0)
+        sums = np.cumsum(self.starts[states])
+        sums[-1] = 1.0
+        return states, sums
+
+    @cached_property
     def digest(self) -> str:
         """A digest of all numbers of the table."""
         content = sha256(repr((self.probabilities.shape, self.most_steps)).encode())

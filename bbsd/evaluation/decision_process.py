@@ -59,9 +59,9 @@ class Chain:
             there = _summed(self.targets % self.n_states, arriving, self.n_states)
         return visits
 
-    def expected(self, gains: Floats, steps: int) -> float:
-        """Return what an episode is expected to bring, given what each transition does; (n_transitions,)."""
-        weights = self.visits(steps)[self.origins] * self.probabilities
+    def expected(self, gains: Floats, visits: Floats) -> float:
+        """Return what an episode should bring, given what each transition does, (n_transitions,), and `visits`."""
+        weights = visits[self.origins] * self.probabilities
         return fsum((weights * gains).tolist())
 
     def moments(self, gains: Floats, steps: int) -> Moments:

@@ -38,7 +38,7 @@ def enumerate_starts(problem: Problem) -> tuple[Problem, npt.NDArray[np.float64]
     if _draws(later):
         raise NotEnumerable("values are drawn during the episode, not only at its start")
     draws = _draws(episode.start.values())
-    choices = [_choices(draw, problem.meaning.constants) for draw in draws]
+    choices = [values_of_draw(draw, problem.meaning.constants) for draw in draws]
     total = int(np.prod([len(weights) for _, weights in choices], dtype=np.float64)) if choices else 1
     if total > MAX_STARTS:
         raise NotEnumerable(f"there are {total} starts; at most {MAX_STARTS} are tried")
@@ -52,8 +52,11 @@ def _draws(nodes: Iterable[Node]) -> list[Node]:
     return [node for node in needed(nodes) if node.operation == "draw"]
 
 
-def _choices(draw: Node, constants: Constants) -> tuple[float, list[float]]:
-    """Return the first value of a draw, and the probabilities of this value and of those that follow it."""
+def values_of_draw(draw: Node, constants: Constants) -> tuple[float, list[float]]:
+    """Return the first value of a draw, and the probabilities of this value and of those that follow it.
+
+    Raises NotEnumerable where it has no finite list of values.
+    """
     distribution = draw.draw.distribution
     values = [constants.static(operand) for operand in draw.operands]
     match distribution, values:
@@ -67,7 +70,7 @@ def _choices(draw: Node, constants: Constants) -> tuple[float, list[float]]:
                     f"a start is drawn from {count} values; at most {MAX_STARTS} starts are tried"
                 )
             return first, [1.0 / count] * count
-    raise NotEnumerable(f"a start is drawn by {distribution}(...), which has no finite list of values")
+    raise NotEnumerable(f"a value is drawn by {distribution}(...), which has no finite list of values")
 
 
 def _combine(

@@ -31,7 +31,7 @@ def test_mean_and_deviation_by_hand():
     mean, sd = chain().moments(GAINS, 2)
     assert mean == pytest.approx(10 / 4 + 3 * 3 / 4)
     assert sd == pytest.approx(sqrt(100 / 4 + 9 * 3 / 4 - mean**2))
-    assert chain().expected(GAINS, 2) == pytest.approx(mean)
+    assert chain().expected(GAINS, chain().visits(2)) == pytest.approx(mean)
     # From the states 0 and 1, each half of the time, in one step: 1 (3/8), 10 (1/8), 2 (1/2).
     mean, sd = chain((0.5, 0.5, 0.0)).moments(GAINS, 1)
     assert mean == pytest.approx(3 / 8 + 10 / 8 + 1)
@@ -167,5 +167,5 @@ def test_what_a_policy_earns_is_what_all_its_episodes_earn(made, data):
     walk = Chain(starts, origins, taken[0].ravel(), taken[1].ravel())
     moments = walk.moments(taken[2].ravel(), steps)
     assert moments.mean == pytest.approx(mean, abs=1e-9)
-    assert walk.expected(taken[2].ravel(), steps) == pytest.approx(mean, abs=1e-9)
+    assert walk.expected(taken[2].ravel(), walk.visits(steps)) == pytest.approx(mean, abs=1e-9)
     assert moments.sd**2 == pytest.approx(square - mean**2, abs=1e-7)

@@ -72,9 +72,9 @@ def test_without_draws_there_is_one_start():
 @pytest.mark.parametrize(
     ("problem", "message"),
     [
-        (lambda: starting("uniform(0, 1)"), "a start is drawn by uniform"),
-        (lambda: starting("integers(0, 1)", "integers(0, x)"), "a start is drawn by integers"),
-        (lambda: starting("integers(0.5, 2)"), "a start is drawn by integers"),
+        (lambda: starting("uniform(0, 1)"), "a value is drawn by uniform"),
+        (lambda: starting("integers(0, 1)", "integers(0, x)"), "a value is drawn by integers"),
+        (lambda: starting("integers(0.5, 2)"), "a value is drawn by integers"),
         (lambda: starting("integers(0, 1)", s="normal(0, 1)"), "during the episode"),
         (lambda: starting("integers(1, 10000)", "integers(1, 101)"), "1010000 starts; at most 1000000"),
         (lambda: starting("integers(1, 10 ** 15)"), "from 1000000000000000 values"),
