@@ -43,7 +43,7 @@ class Steps:
     """The probability that an episode begins in a state, (n_states,)."""
     n_choices: int
     targets: Integers
-    """The state after a step, -1 where the episode is over; (n_rows,)."""
+    """The state after a step, -1 where the episode is over, at the latest after the last step; (n_rows,)."""
     probabilities: Floats
     """Of the chance, given state and choice; (n_rows,)."""
     terms: Floats
@@ -93,18 +93,23 @@ class _Explorer:
         outcomes: list[DetailedOutcome] = []
         targets: list[Integers] = []
         done = 0
-        while done < len(self._found):
-            states = np.array(self._found[done : done + STATES])
-            outcome = self._step(states)
-            targets.append(self._targets(outcome.terms))
-            outcomes.append(outcome)
-            done += len(states)
+        for _ in range(self.problem.meaning.spec.environment.steps):
+            newest = len(self._found)
+            for first_state in range(done, newest, STATES):
+                outcome = self._step(np.array(self._found[first_state : min(first_state + STATES, newest)]))
+                targets.append(self._targets(outcome.terms))
+                outcomes.append(outcome)
+            done = newest
+            if done == len(self._found):
+                break
+        reached = np.concatenate(targets)
+        reached[reached >= done] = -1  # only after the last step: nothing follows there
         terms = np.concatenate([outcome.terms for outcome in outcomes])
         n_terms = len(self.problem.meaning.episode.reward)
         return Steps(
-            np.bincount(first, weights, len(self._found)).astype(np.float64),
+            np.bincount(first, weights, done).astype(np.float64),
             self._one_step.n_choices,
-            np.concatenate(targets),
+            reached,
             terms[:, n_terms],
             terms[:, :n_terms],
             np.concatenate([outcome.control for outcome in outcomes]),
