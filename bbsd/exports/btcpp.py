@@ -39,8 +39,8 @@ RESERVED = frozenset({"root", "name", "ID", "true", "false", "action"})
 ELEMENTS = {"sequence": "ReactiveSequence", "fallback": "ReactiveFallback"}
 CELLS = "cells"
 """The port of a condition: the cells in which it succeeds."""
-MOST_RUNS = 20
-"""Runs of neighboring cells in one script; its parser has a limit."""
+MOST_PARTS = 20
+"""Alternatives in one script; its parser has a limit."""
 
 
 class Leaves(NamedTuple):
@@ -125,7 +125,7 @@ def _comment(paragraphs: Sequence[str]) -> list[str]:
 
 def _quoted(text: str) -> str:
     """Return an attribute's value in quotes; characters that XML does not know become visible escapes."""
-    return quoteattr(escape(text))
+    return quoteattr(escape(text)).replace("&gt;", ">")
 
 
 def _element(
@@ -152,10 +152,10 @@ def _script_condition(controller: Controller, leaves: Leaves, node: Condition, i
     entry, size = leaves.inputs[node.dimension], controller.dimensions[node.dimension].size
     codes = script_of(entry, node.cells, size)
     if len(codes) == 1:
-        yield f"{indent}<ScriptCondition name={_quoted(node.text)} code={quoteattr(codes[0])}/>"
+        yield f"{indent}<ScriptCondition name={_quoted(node.text)} code={_quoted(codes[0])}/>"
         return
     yield f"{indent}<ReactiveFallback name={_quoted(node.text)}>"
-    yield from (f"{indent}  <ScriptCondition code={quoteattr(code)}/>" for code in codes)
+    yield from (f"{indent}  <ScriptCondition code={_quoted(code)}/>" for code in codes)
     yield f"{indent}</ReactiveFallback>"
 
 
@@ -172,20 +172,23 @@ def script_of(entry: str, cells: Sequence[int], size: int) -> list[str]:
         *(index for index, (low, high) in enumerate(pairwise(cells), 1) if high != low + 1),
         len(cells),
     ]
-    runs = [_run(entry, cells[first], cells[last - 1], size) for first, last in pairwise(starts)]
-    if len(runs) == 1:
-        return [runs[0].strip("()")]
-    return [" || ".join(runs[first : first + MOST_RUNS]) for first in range(0, len(runs), MOST_RUNS)]
+    parts = [
+        part for first, last in pairwise(starts) for part in _run(entry, cells[first], cells[last - 1], size)
+    ]
+    if len(parts) == 1:
+        return [parts[0].strip("()")]
+    return [" || ".join(parts[first : first + MOST_PARTS]) for first in range(0, len(parts), MOST_PARTS)]
 
 
-def _run(entry: str, low: int, high: int, size: int) -> str:
-    if low == high:
-        return f"{entry} == {low}"
-    if low == 0:
-        return f"{entry} <= {high}"
-    if high == size - 1:
-        return f"{entry} >= {low}"
-    return f"({entry} >= {low} && {entry} <= {high})"
+def _run(entry: str, low: int, high: int, size: int) -> list[str]:
+    """Return scripts, one of which holds where an entry is one of a run of neighboring cells."""
+    if low == 0 < high:
+        return [f"{entry} <= {high}"]
+    if low < high == size - 1:
+        return [f"{entry} >= {low}"]
+    if high - low > 1:
+        return [f"({entry} >= {low} && {entry} <= {high})"]
+    return [f"{entry} == {cell}" for cell in range(low, high + 1)]
 
 
 def _custom_condition(controller: Controller, leaves: Leaves, node: Condition, indent: str) -> Iterator[str]:

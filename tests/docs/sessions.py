@@ -49,7 +49,9 @@ def _command(command: str, shown: str, folder: Path) -> str:
 
 def _printed(command: str, folder: Path) -> str:
     """What a command prints on a terminal of 80 columns, both streams together, without color."""
-    shell = f'bbsd() {{ "{sys.executable}" -m bbsd "$@"; }}; {command}'
+    shell = (
+        f'bbsd() {{ "{sys.executable}" -m bbsd "$@"; }}; python() {{ "{sys.executable}" "$@"; }}; {command}'
+    )
     surroundings = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1", "PYTHONUTF8": "1"}
     done = subprocess.run(
         ["bash", "-c", shell],

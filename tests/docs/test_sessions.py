@@ -10,7 +10,10 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md", "docs/howto.md", "docs/understanding.md"])
+@pytest.mark.parametrize(
+    "name",
+    ["README.md", "docs/tutorial.md", "docs/howto.md", "docs/understanding.md", "docs/export.md"],
+)
 def test_a_document_shows_what_its_commands_print(name, tmp_path, request):
     (tmp_path / "specs").symlink_to(ROOT / "specs")
     path = ROOT / name

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from bbsd.architecture import joint_space
 from bbsd.architecture.controller import Action, Controller, Dimension, Layer
 from bbsd.architecture.deciding import policy_at
-from bbsd.exports.btcpp import CELLS, MOST_RUNS, leaves_of, script_of, write
+from bbsd.exports.btcpp import CELLS, MOST_PARTS, leaves_of, script_of, write
 from bbsd.exports.exported import Options
 from bbsd.exports.verification.behaviortree import run_btcpp
 from bbsd.exports.verification.comparing import cells_to_compare
@@ -107,9 +107,10 @@ def test_a_condition_of_very_many_cells_is_one_that_the_library_can_read(form):
         ((1,), 2, ["v == 1"]),
         ((0, 1, 2), 5, ["v <= 2"]),
         ((3, 4), 5, ["v >= 3"]),
-        ((1, 2), 5, ["v >= 1 && v <= 2"]),
+        ((1, 2), 5, ["v == 1 || v == 2"]),
+        ((1, 2, 3), 5, ["v >= 1 && v <= 3"]),
         ((0, 1, 3, 4), 5, ["v != 2"]),
-        ((0, 2, 3, 5), 7, ["v == 0 || (v >= 2 && v <= 3) || v == 5"]),
+        ((0, 2, 3, 4, 6), 8, ["v == 0 || (v >= 2 && v <= 4) || v == 6"]),
     ],
 )
 def test_scripts_are_short_and_have_brackets_where_the_library_needs_them(cells, size, expected):
@@ -118,7 +119,7 @@ def test_scripts_are_short_and_have_brackets_where_the_library_needs_them(cells,
 
 def test_scripts_have_no_more_alternatives_than_the_parser_takes():
     scripts = script_of("v", range(0, 1000, 2), 1001)
-    assert max(script.count("||") for script in scripts) == MOST_RUNS - 1
+    assert max(script.count("||") for script in scripts) == MOST_PARTS - 1
     assert sum(script.count("==") for script in scripts) == 500
 
 
@@ -141,3 +142,36 @@ def test_custom_leaves_say_in_which_cells_they_succeed_and_what_they_set():
 
 def test_the_same_design_gives_the_same_bytes():
     assert xml_of(hand_made("forager_hand"), "custom") == xml_of(hand_made("forager_hand"), "custom")
+
+
+def test_a_running_action_is_halted_when_a_higher_layer_acts():
+    library = pytest.importorskip("behaviortreepy")
+    text, status, present, told = (
+        xml_of(hand_made("object_lifting_hand"), "custom"),
+        library.NodeStatus,
+        {},
+        [],
+    )
+    factory = library.BehaviorTreeFactory()
+    root = ET.fromstring(text)
+    for node in [*root.find("BehaviorTree").iter()]:
+        node.attrib = {key: value for key, value in node.items() if key in ("name", "ID")}
+    for node in root.find("TreeNodesModel"):
+        name = node.get("ID")
+        if node.tag == "Condition":
+            factory.register_simple_condition(name, lambda _, name=name: present.get(name, False))
+        else:
+            factory.register_simple_stateful_action(
+                name,
+                lambda _, name=name: (told.append(f"{name} starts"), status.RUNNING)[1],
+                lambda _, name=name: (told.append(f"{name} goes on"), status.RUNNING)[1],
+                lambda _, name=name: told.append(f"{name} is halted"),
+            )
+    tree = factory.create_tree_from_text(ET.tostring(root, encoding="unicode"))
+    for change in ({}, {}, {"pace": True}, {"reached": True}, {"reached": False, "pace": False}):
+        present.update(change)
+        assert tree.tick_exactly_once() == status.RUNNING
+    assert told == [
+        *("push starts", "push goes on", "cap starts", "push is halted"),
+        *("stop starts", "cap is halted", "stop is halted", "push starts"),
+    ]
