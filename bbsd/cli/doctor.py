@@ -1,12 +1,12 @@
 """`bbsd doctor`."""
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from bbsd.cli.options import AsJson
-from bbsd.cli.output import show
+from bbsd.cli.output import say, show
 
 if TYPE_CHECKING:
     from bbsd.report.health import Finding
@@ -15,14 +15,22 @@ PROBLEM = 1
 """The exit code if something is wrong."""
 
 
-def doctor(as_json: AsJson = False) -> None:
+Clean = Annotated[bool, typer.Option("--clean", help="Empty the cache of compiled code first.")]
+
+
+def doctor(clean: Clean = False, as_json: AsJson = False) -> None:
     """Check the installation: versions, cores, caches, a test result.
 
-    Exits with code 1 if something is wrong.
+    The test is also compiled, which takes some seconds where the cache is empty. Exits with code 1 if something is
+    wrong.
     """
+    from bbsd.kernel import cache
     from bbsd.report.health import examine
     from bbsd.report.plain import json_text
 
+    if clean:
+        root = cache.cache_root()
+        say(f"{cache.clean(root) / 1e6:.1f} MB removed from {root}")
     findings = list(examine())
     is_well = not any(finding.problem for finding in findings)
     if as_json:

@@ -9,6 +9,7 @@ import atexit
 import os
 import shutil
 import sys
+from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import version
@@ -16,6 +17,19 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile, mkdtemp
 
 CACHE_VARIABLE = "BBSD_CACHE_DIR"
+MOST_BYTES = 500_000_000
+"""What the cache holds at most, some hundred specs; what was not used for the longest time is removed first."""
+DIGEST_SIZE = sha256().digest_size
+
+
+def with_digest(content: bytes) -> bytes:
+    """Return a content as a file of compiled code holds it, from which it can be told whether it is whole."""
+    return content + sha256(content).digest()
+
+
+def is_whole(content: bytes) -> bool:
+    """Say whether what a file of compiled code holds is what was written."""
+    return sha256(content[:-DIGEST_SIZE]).digest() == content[-DIGEST_SIZE:]
 
 
 @cache
@@ -62,3 +76,50 @@ def usable(folder: Path) -> bool:
     except OSError:
         return False
     return os.name == "nt" or (status.st_uid == os.geteuid() and not status.st_mode & 0o022)
+
+
+def trim(root: Path, most: int = MOST_BYTES) -> None:
+    """Remove what was not used for the longest time, until the cache holds no more than so many bytes.
+
+    Compiled code is looked at by the kernel that it is of, and goes with the text of that kernel.
+    """
+    compiled = [_Compiled.read(folder) for folder in (root / "compiled").glob("*") if folder.is_dir()]
+    kernels = {path: path.stat().st_size for path in (root / "kernels").glob("*.py")}
+    size = sum(each.size for each in compiled) + sum(kernels.values())
+    for each in sorted(compiled, key=lambda each: each.used):
+        if size <= most:
+            return
+        shutil.rmtree(each.folder, ignore_errors=True)
+        size -= each.size
+        for path in [path for path in kernels if path.stem in each.kernels]:
+            path.unlink(missing_ok=True)
+            size -= kernels.pop(path)
+
+
+@dataclass(frozen=True, slots=True)
+class _Compiled:
+    """A folder of compiled code, its size in bytes, when it was last used, and the kernels that it is of."""
+
+    folder: Path
+    size: int
+    used: float
+    kernels: frozenset[str]
+
+    @classmethod
+    def read(cls, folder: Path) -> _Compiled:
+        files = {path: path.stat() for path in folder.rglob("*") if path.is_file()}
+        return cls(
+            folder,
+            sum(status.st_size for status in files.values()),
+            max((status.st_mtime for status in files.values()), default=0.0),
+            frozenset(path.name.partition(".")[0] for path in files),
+        )
+
+
+def clean(root: Path) -> int:
+    """Remove all that is in the cache, and return how many bytes that were."""
+    folders = [root / "compiled", root / "kernels"]
+    size = sum(path.stat().st_size for folder in folders for path in folder.rglob("*") if path.is_file())
+    for folder in folders:
+        shutil.rmtree(folder, ignore_errors=True)
+    return size

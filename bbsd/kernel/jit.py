@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from bbsd.kernel import functions, streams
 from bbsd.kernel.cache import cache_folder, kernel_digest
@@ -38,6 +38,7 @@ with _config_file_hidden():
     from numba.core.dispatcher import Dispatcher
 
     from bbsd.kernel import intrinsics
+    from bbsd.kernel.compiled_files import keep_compiled
     from bbsd.kernel.pipeline import KernelCompiler
 
 # numba looks for the file again at every compilation; and someone else may have imported numba before.
@@ -77,7 +78,8 @@ def _library() -> list[Dispatcher]:
     library = []
     with _cached_in(cache_folder("compiled") / kernel_digest()):
         for function in functions.COMPILABLE + streams.COMPILABLE:
-            library.append(numba.njit(cache=True, **LIBRARY_OPTIONS)(function))
+            library.append(numba.njit(**LIBRARY_OPTIONS)(function))
+            keep_compiled(library[-1], function)
             intrinsics.offer(function, library[-1])
     return library
 
@@ -103,8 +105,9 @@ def jit(function: Function, **more: object) -> Function:
     """
     options: Any = {**OPTIONS, **more}
     with _cached_in(cache_folder("compiled") / _stamp(function)):
-        compiled: Function = numba.njit(cache=True, **options)(function)
-    return compiled
+        compiled = numba.njit(**options)(function)
+        keep_compiled(compiled, function)
+    return cast("Function", compiled)
 
 
 def jit_kernel(function: Function) -> Function:

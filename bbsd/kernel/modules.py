@@ -6,16 +6,13 @@ Numba is imported only when something is compiled.
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from hashlib import sha256
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 from bbsd.kernel.cache import cache_folder, kernel_digest
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
@@ -32,7 +29,7 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
         return sys.modules[module_name]
     path = cache_folder("kernels") / f"{stem}.py"
     _write(path, source)
-    module = _import_file(path, module_name)
+    module = _executed(source, path, module_name)
     if compiled:
         _compile(module, functions)
     return module
@@ -40,22 +37,25 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
 
 def _write(path: Path, text: str) -> None:
     """Write a file whole or not at all, and not if it is there already."""
-    if path.exists() and path.read_text(encoding="utf-8") == text:
-        return
-    with NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, suffix=".part", delete=False) as part:
-        part.write(text)
+    with suppress(FileNotFoundError):
+        if path.read_bytes() == text.encode():
+            return
+    with NamedTemporaryFile("wb", dir=path.parent, suffix=".part", delete=False) as part:
+        part.write(text.encode())
     Path(part.name).replace(path)
 
 
-def _import_file(path: Path, module_name: str) -> ModuleType:
-    """Import a file under a name, registered before the file is executed, since numba's cache looks it up."""
-    spec = spec_from_file_location(module_name, path)
-    if spec is None or spec.loader is None:
-        raise ImportError(f"{path} is not a module", path=str(path))
-    module = module_from_spec(spec)
+def _executed(source: str, path: Path, module_name: str) -> ModuleType:
+    """Return a source as a module that says it is of a file.
+
+    It is registered before it is executed, since numba's cache looks it up. Python's own cache of modules is left out:
+    it takes what is damaged for good.
+    """
+    module = ModuleType(module_name)
+    module.__file__ = str(path)
     sys.modules[module_name] = module
     try:
-        spec.loader.exec_module(module)
+        exec(compile(source, path, "exec"), vars(module))  # noqa: S102 - written by bbsd, from a spec
     except BaseException:
         del sys.modules[module_name]
         raise

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
-from bbsd.kernel.cache import CACHE_VARIABLE, cache_root, usable
+from bbsd.kernel.cache import CACHE_VARIABLE, cache_root, is_whole, usable
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 PACKAGES = ("numba", "llvmlite", "numpy", "pydantic", "PyYAML", "yamlcore", "typer", "rich")
 OLDEST_PYTHON = (3, 11)
+COMPILED = (".nbi", ".nbc")
+"""The endings of files with compiled code."""
 
 SELF_CHECK_SPEC = """\
 bbsd: 1
@@ -47,7 +49,7 @@ class Finding:
 
 
 def examine() -> Iterator[Finding]:
-    """Yield all findings; nothing is compiled, so that it is fast."""
+    """Yield all findings; the last one compiles, which takes some seconds where the cache is empty."""
     yield Finding("bbsd", __version__)
     yield _python()
     for package in PACKAGES:
@@ -57,7 +59,8 @@ def examine() -> Iterator[Finding]:
     yield Finding("cores", _cores())
     yield _compiler()
     yield _cache(cache_root())
-    yield _self_check()
+    yield _self_check("self-check", compiled=False)
+    yield _self_check("compiled", compiled=True)
 
 
 def _python() -> Finding:
@@ -101,24 +104,35 @@ def _cache(root: Path) -> Finding:
         return Finding("cache", str(root), f"it cannot be used: {advice}")
     files = [path for path in root.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
-    return Finding("cache", f"{root}, writable, {len(files):,} files, {size:.1f} MB")
+    n_damaged = sum(_is_damaged(path) for path in files)
+    damaged = f", of which {n_damaged:,} damaged: made anew when needed" if n_damaged else ""
+    return Finding("cache", f"{root}, writable, {len(files):,} files, {size:.1f} MB{damaged}")
 
 
-def _self_check() -> Finding:
-    """Run one episode as plain Python, and compare its return with the known one."""
+def _is_damaged(path: Path) -> bool:
+    """Say whether a file is compiled code that is not what was written."""
     try:
-        result = self_check_return()
+        return path.suffix in COMPILED and not is_whole(path.read_bytes())
+    except OSError:
+        return True
+
+
+def _self_check(name: str, *, compiled: bool) -> Finding:
+    """Run one episode, compiled or as plain Python, and compare its return with the known one."""
+    try:
+        result = self_check_return(compiled=compiled)
     except Exception as error:  # noqa: BLE001 - any defect of an installation is shown
-        return Finding("self-check", "failed", f"{type(error).__name__}: {error}")
+        advice = "; if it lasts: bbsd doctor --clean" if compiled else ""
+        return Finding(name, "failed", f"{type(error).__name__}: {error}{advice}")
     if result != SELF_CHECK_RETURN:
         problem = (
             f"the test episode should return {SELF_CHECK_RETURN}: designs differ from those on other machines"
         )
-        return Finding("self-check", result, problem)
-    return Finding("self-check", "the test episode has the right return, to the last bit")
+        return Finding(name, result, problem)
+    return Finding(name, "the test episode has the right return, to the last bit")
 
 
-def self_check_return() -> str:
+def self_check_return(*, compiled: bool = False) -> str:
     """Return the return of an episode of the test spec, with all its digits."""
     import numpy as np
 
@@ -128,6 +142,6 @@ def self_check_return() -> str:
     from bbsd.language.loading import load
     from bbsd.text import Source
 
-    problem = compile_meaning(load(Source("known", SELF_CHECK_SPEC)).meaning, compiled=False)
+    problem = compile_meaning(load(Source("known", SELF_CHECK_SPEC)).meaning, compiled=compiled)
     agents = agents_of([given_architecture(problem)])
     return float(returns_of(problem, agents, np.zeros(1, np.uint64), 1)[0, 0]).hex()

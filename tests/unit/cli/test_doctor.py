@@ -24,3 +24,14 @@ def test_a_problem_is_shown_and_the_exit_code_is_1(capsys, monkeypatch):
         "            wrong: full",
         "b           c",
     ]
+
+
+def test_the_cache_is_emptied_first(capsys, monkeypatch, tmp_path):
+    root = tmp_path / "cache"
+    monkeypatch.setenv("BBSD_CACHE_DIR", str(root))
+    (root / "kernels").mkdir(parents=True)
+    (root / "kernels" / "a.py").write_bytes(bytes(2_000_000))
+    monkeypatch.setattr(health, "examine", lambda: iter([]))
+    assert run("doctor", "--clean") == 0
+    assert capsys.readouterr().err == f"2.0 MB removed from {root}\n"
+    assert not list(root.rglob("*.py"))

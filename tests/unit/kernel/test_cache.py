@@ -1,9 +1,10 @@
+import os
 import stat
 from pathlib import Path
 
 import pytest
 
-from bbsd.kernel.cache import cache_folder, cache_root
+from bbsd.kernel.cache import cache_folder, cache_root, clean, trim
 
 
 @pytest.fixture(autouse=True)
@@ -42,3 +43,31 @@ def test_a_cache_that_others_can_write_is_not_used(root: Path, capsys: pytest.Ca
     root.chmod(0o777)
     assert root not in cache_folder("kernels").parents
     assert "cannot keep compiled code" in capsys.readouterr().err
+
+
+def compiled(root: Path, name: str, size: int, used: float) -> Path:
+    """A folder of compiled code, and the text of its kernel."""
+    for path in (root / "compiled" / name / f"{name}.rollout.1.nbc", root / "kernels" / f"{name}.py"):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(bytes(size))
+        os.utime(path, (used, used))
+    return root / "compiled" / name
+
+
+def test_a_cache_is_bounded_and_what_was_not_used_longest_goes_first(root: Path) -> None:
+    old, young, older = (compiled(root, *each) for each in [("a", 100, 2), ("b", 100, 3), ("c", 100, 1)])
+    trim(root, most=600)
+    assert all(path.exists() for path in (older, old, young))
+    trim(root, most=599)
+    assert [path.exists() for path in (older, old, young)] == [False, True, True]
+    assert [path.stem for path in sorted((root / "kernels").iterdir())] == ["a", "b"]
+    trim(root, most=0)
+    assert not list(root.rglob("*.*"))
+    trim(root / "nowhere", most=0)
+
+
+def test_a_cache_can_be_cleaned(root: Path) -> None:
+    compiled(root, "a", 100, 2)
+    assert clean(root) == 200
+    assert not list(root.rglob("*.*"))
+    assert clean(root) == 0

@@ -2,8 +2,6 @@ from __future__ import annotations
 
 import sys
 
-import pytest
-
 from bbsd.kernel import cache, modules
 from bbsd.report import health
 
@@ -16,9 +14,25 @@ def test_nothing_is_wrong_here():
     assert [finding for finding in health.examine() if finding.problem] == []
 
 
-def test_nothing_is_compiled(monkeypatch):
-    monkeypatch.setattr(modules, "_compile", lambda *_: pytest.fail("something is compiled"))
+def test_plain_python_and_what_is_compiled_are_told_apart(monkeypatch):
+    def broken(*_):
+        raise OSError("no compiler")
+
+    monkeypatch.setattr(modules, "_compile", broken)
+    monkeypatch.setattr(health, "SELF_CHECK_SPEC", health.SELF_CHECK_SPEC.replace("known", "unknown"))
     assert not finding("self-check").problem
+    assert finding("compiled").problem == "OSError: no compiler; if it lasts: bbsd doctor --clean"
+
+
+def test_damaged_files_of_the_cache_are_counted(monkeypatch, tmp_path):
+    root = tmp_path / "cache"
+    monkeypatch.setenv(cache.CACHE_VARIABLE, str(root))
+    (root / "compiled").mkdir(parents=True, mode=0o700)
+    root.chmod(0o700)
+    (root / "compiled" / "a.nbc").write_bytes(cache.with_digest(b"whole"))
+    assert finding("cache").value.endswith("1 files, 0.0 MB")
+    (root / "compiled" / "b.nbi").write_bytes(b"")
+    assert finding("cache").value.endswith("2 files, 0.0 MB, of which 1 damaged: made anew when needed")
 
 
 def test_another_result_than_everywhere_is_wrong(monkeypatch):
