@@ -20,11 +20,14 @@ if TYPE_CHECKING:
 def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
     """Return the Python source of a spec's kernel: a rollout for the solver and one for evaluation.
 
+    Where an environment is stepped in Python, between the phases of a step, there are functions for these.
+
     Raises:
         SpecError: with all mistakes of the spec.
     """
     problem = compile_meaning(load(spec, overrides=overrides).meaning)
-    return kernel_source(problem.meaning, problem.tables, lanes, (Detail.CREDIT, Detail.TERMS))
+    details = (Detail.CREDIT, Detail.TERMS)
+    return kernel_source(problem.meaning, problem.tables, lanes, details, in_phases=problem.is_stepped)
 
 
 @contextmanager
