@@ -4,7 +4,7 @@ from bbsd.exports.verification import compilers
 from bbsd.exports.verification.tools import ToolMissing
 from tests.end_to_end.commands import bbsd
 from tests.unit.architecture.designs import SPECS
-from tests.unit.exports.designs import tool
+from tests.unit.exports.designs import library, tool
 
 DESIGN = SPECS / "object_lifting_hand.yaml"
 
@@ -73,7 +73,7 @@ def test_a_target_must_be_one(words):
 
 
 def test_a_tree_is_written_and_run_by_its_library(tmp_path):
-    pytest.importorskip("behaviortreepy")
+    library("behaviortreepy")
     words = ("--to", "btcpp", "--leaves", "custom", "-o", tmp_path / "lift.xml", "--verify")
     code, _, err = bbsd("export", DESIGN, *words)
     assert code == 0

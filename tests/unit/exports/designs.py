@@ -2,6 +2,8 @@
 
 import os
 from contextlib import contextmanager
+from importlib import import_module
+from importlib.util import find_spec
 
 import pytest
 
@@ -64,6 +66,14 @@ def tool(name):
     """Where a tool is, as `answers`."""
     with there():
         return found(name)
+
+
+def library(name):
+    """A library of another language's, as `answers`."""
+    with there():
+        if find_spec(name) is None:
+            raise ToolMissing(name)
+    return import_module(name)
 
 
 @contextmanager

@@ -13,7 +13,16 @@ from bbsd.exports.exported import Options
 from bbsd.exports.verification.behaviortree import run_btcpp
 from bbsd.exports.verification.comparing import cells_to_compare
 from tests.unit.exports.controllers import controllers, exported, joint_cells
-from tests.unit.exports.designs import ODD_NAME, ODD_WORDS, SHIPPED, answers, drawn, hand_made, written
+from tests.unit.exports.designs import (
+    ODD_NAME,
+    ODD_WORDS,
+    SHIPPED,
+    answers,
+    drawn,
+    hand_made,
+    library,
+    written,
+)
 
 FORMS = ("script", "custom")
 REACTIVE = {"ReactiveSequence", "ReactiveFallback"}
@@ -48,17 +57,17 @@ def test_whatever_things_are_called_it_is_a_tree(form):
 @given(controllers())
 @settings(max_examples=60)
 def test_the_library_takes_the_actions_of_any_design(controller):
-    library = pytest.importorskip("behaviortreepy")
+    engine = library("behaviortreepy")
     cells, expected = joint_cells(controller)
-    board, names = library.Blackboard.create(), leaves_of(controller).inputs
+    board, names = engine.Blackboard.create(), leaves_of(controller).inputs
     for name in names:
         board.set_int(name, 0)
-    tree = library.BehaviorTreeFactory().create_tree_from_text(xml_of(exported(controller)), board)
+    tree = engine.BehaviorTreeFactory().create_tree_from_text(xml_of(exported(controller)), board)
     found = []
     for cell in cells:
         for name, index in zip(names, cell, strict=True):
             board.set_int(name, index)
-        assert tree.tick_exactly_once() == library.NodeStatus.SUCCESS
+        assert tree.tick_exactly_once() == engine.NodeStatus.SUCCESS
         found.append(board.get_int("action"))
     assert found == expected
 
@@ -145,14 +154,14 @@ def test_the_same_design_gives_the_same_bytes():
 
 
 def test_a_running_action_is_halted_when_a_higher_layer_acts():
-    library = pytest.importorskip("behaviortreepy")
+    engine = library("behaviortreepy")
     text, status, present, told = (
         xml_of(hand_made("object_lifting_hand"), "custom"),
-        library.NodeStatus,
+        engine.NodeStatus,
         {},
         [],
     )
-    factory = library.BehaviorTreeFactory()
+    factory = engine.BehaviorTreeFactory()
     root = ET.fromstring(text)
     for node in [*root.find("BehaviorTree").iter()]:
         node.attrib = {key: value for key, value in node.items() if key in ("name", "ID")}

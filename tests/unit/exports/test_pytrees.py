@@ -11,7 +11,16 @@ from bbsd.exports.pytrees import CLIENT, write
 from bbsd.exports.verification.comparing import cells_to_compare
 from bbsd.exports.verification.pytrees import run_pytrees
 from tests.unit.exports.controllers import controllers, exported, joint_cells
-from tests.unit.exports.designs import ODD_NAME, ODD_WORDS, SHIPPED, answers, drawn, hand_made, written
+from tests.unit.exports.designs import (
+    ODD_NAME,
+    ODD_WORDS,
+    SHIPPED,
+    answers,
+    drawn,
+    hand_made,
+    library,
+    written,
+)
 
 
 def text_of(design):
@@ -45,14 +54,14 @@ def test_whatever_things_are_called_it_is_a_tree():
 @given(controllers())
 @settings(max_examples=40)
 def test_the_library_takes_the_actions_of_any_design(controller):
-    pytest.importorskip("py_trees")
+    library("py_trees")
     cells, expected = joint_cells(controller)
     made = module(exported(controller))["Controller"]()
     assert [made.command(*cell) for cell in cells] == expected
 
 
 def test_robots_with_namespaces_of_their_own_do_not_disturb_each_other():
-    pytest.importorskip("py_trees")
+    library("py_trees")
     names = module(hand_made("object_lifting_hand"))
     first, second = names["Controller"]("first"), names["Controller"]("second")
     first.command(pace=0, reached=1, place=0, tilted=0)
@@ -61,8 +70,8 @@ def test_robots_with_namespaces_of_their_own_do_not_disturb_each_other():
 
 
 def test_no_key_is_called_as_something_that_clients_of_the_blackboard_have():
-    library = pytest.importorskip("py_trees")
-    client = library.blackboard.Client(name="any")
+    engine = library("py_trees")
+    client = engine.blackboard.Client(name="any")
     assert {each for each in dir(client) if not each.startswith("_")} <= set(CLIENT.split())
 
 
