@@ -3,7 +3,8 @@
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
 `evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `export`, `spaces`, `page` for `bbsd report`,
-`faults` for `evaluate --fault`, and `trace` for one episode; `bbsd.api` documents them.
+`faults` for `evaluate --fault`, and `trace` for one episode; an `Agent` is a design in a program of one's own.
+`bbsd.api` documents them.
 """
 
 import sys
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bbsd.api import (
+        Agent,
         check,
         compare,
         compile,  # noqa: A004 - the verb
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
 from bbsd.version import __version__
 
 __all__ = [
+    "Agent",
     "__version__",
     "check",
     "compare",

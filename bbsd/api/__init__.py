@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from bbsd.api.acting import Agent
     from bbsd.api.appraising import faults, worth
     from bbsd.api.comparing import compare
     from bbsd.api.compiling import compile  # noqa: A004 - the verb
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from bbsd.api.watching import watch
 
 HOMES = {
+    "bbsd.api.acting": ("Agent",),
     "bbsd.api.appraising": ("faults", "worth"),
     "bbsd.api.comparing": ("compare",),
     "bbsd.api.compiling": ("compile",),
@@ -65,6 +67,7 @@ HOMES = {
 """Where each name is from."""
 
 __all__ = [
+    "Agent",
     "AnyProgress",
     "AnySpec",
     "BestSoFar",

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
 def input_texts(spec: Spec, behavior: Behavior) -> dict[str, str]:
     """Return for each input of a behavior its partition, or the state that it reads."""
     if isinstance(behavior.inputs, dict):
-        return {name: _partition(written) for name, written in behavior.inputs.items()}
+        return {name: partition_text(written) for name, written in behavior.inputs.items()}
     sensors, state = spec.environment.sensors, spec.environment.state
     return {
-        name: _partition(sensors[name]) if name in sensors else f"state, starts as {one_line(state[name])}"
+        name: partition_text(sensors[name])
+        if name in sensors
+        else f"state, starts as {one_line(state[name])}"
         for name in behavior.inputs
     }
 
@@ -32,5 +34,6 @@ def one_line(expression: Expression) -> str:
     return " ".join(expression.text.split())
 
 
-def _partition(written: PartitionText) -> str:
+def partition_text(written: PartitionText) -> str:
+    """Return a partition or an expression, without line breaks."""
     return mapping_text(written) if isinstance(written, dict) else one_line(written)

@@ -1,0 +1,189 @@
+"""What an agent must be given: names, kinds, cells; and how a value that a program gives becomes one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from math import isfinite, prod
+from typing import TYPE_CHECKING, Any, Literal, SupportsFloat
+
+from bbsd.architecture.sayings import one_line, partition_text
+from bbsd.errors import UsageError, did_you_mean
+from bbsd.expression.kinds import Kind
+from bbsd.language.meaning.partitions import is_partition
+from bbsd.language.meaning.tables.labels import Numbers
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+
+    from bbsd.architecture.needs import Given
+    from bbsd.expression.node_data import Slot
+    from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.tables.labels import Labels
+
+InputKind = Literal["number", "whole number", "truth", "cell"]
+FEW = 8
+"""Cells that a message lists."""
+
+
+class BadInput(UsageError, TypeError):
+    """A value that an agent was given and that is missing, unknown, or of a wrong kind."""
+
+
+@dataclass(frozen=True, slots=True)
+class AgentInput:
+    """A value that an agent must be given before each decision.
+
+    A `cell` is given by its label, or by its index where labels are no numbers.
+    """
+
+    name: str
+    kind: InputKind
+    shape: tuple[int, ...]
+    """() for a single value, else the lengths of the lists."""
+    cells: Labels
+    """The labels of a cell; empty for other kinds."""
+    low: float | None
+    """The least that it can be; None where the spec does not say so."""
+    high: float | None
+    text: str
+    """What it is, as the spec writes it."""
+    slots: tuple[Slot, ...]
+    """Where it is stored in an episode, in row-major order."""
+
+    @property
+    def size(self) -> int:
+        """The number of its values."""
+        return prod(self.shape)
+
+    @property
+    def places(self) -> list[tuple[int, ...]]:
+        """The indices of its values in the lists, in order."""
+        return [*product(*map(range, self.shape))]
+
+    def read(self, value: object) -> float | bool | int:
+        """Return one of its values as it is stored. Raises BadInput where it is of another kind."""
+        match self.kind:
+            case "truth":
+                return self._truth(value)
+            case "cell":
+                return self._cell(value)
+        return self._number(value)
+
+    def _number(self, value: object) -> float:
+        if isinstance(value, bool | str | bytes) or not isinstance(value, SupportsFloat):
+            raise BadInput(f"{self.name}: {value!r} is no number")
+        try:
+            number = float(value)
+        except (TypeError, ValueError) as error:
+            raise BadInput(f"{self.name}: {value!r} is no number") from error
+        if self.kind == "whole number" and isfinite(number) and not number.is_integer():
+            raise BadInput(f"{self.name}: {value!r} is no whole number")
+        return number
+
+    def _truth(self, value: object) -> bool:
+        plain = plain_value(value)
+        if isinstance(plain, bool | int | float) and plain in (0, 1):
+            return bool(plain)
+        raise BadInput(f"{self.name}: {value!r} is neither true nor false")
+
+    def _cell(self, value: object) -> int:
+        plain = plain_value(value)
+        label = str(plain).lower() if isinstance(plain, bool) else str(plain)
+        if label in self.cells:
+            return self.cells.index(label)
+        if isinstance(plain, int) and not isinstance(self.cells, Numbers) and 0 <= plain < len(self.cells):
+            return plain
+        few = ", ".join(self.cells[:FEW]) + (", ..." if len(self.cells) > FEW else "")
+        raise BadInput(
+            f"{self.name}: {plain!r} is none of its cells{did_you_mean(label, self.cells[:100])}: {few}"
+        )
+
+
+def plain_value(value: object) -> object:
+    """Return a scalar of numpy as one of Python, anything else as it is."""
+    item = getattr(value, "item", None)
+    return item() if callable(item) and getattr(value, "shape", None) == () else value
+
+
+def inputs_of(
+    meaning: Meaning, given: tuple[Given, ...], read: Collection[Slot], whole: Collection[Slot], robot: int
+) -> dict[str, AgentInput]:
+    """Return the inputs of a robot by name: what is given, as far as it is read."""
+    inputs = (_input(meaning, each, whole, robot) for each in given)
+    return {each.name: each for each in inputs if any(slot in read for slot in each.slots)}
+
+
+def _input(meaning: Meaning, given: Given, whole: Collection[Slot], robot: int) -> AgentInput:
+    slots = tuple(
+        slot if given.of_team or slot.robot is None else slot._replace(robot=robot) for slot in given.slots
+    )
+    lengths = [max(place) + 1 for place in zip(*(slot.place for slot in slots), strict=True)]
+    team = [meaning.spec.environment.robots] if given.of_team else []
+    low, high = _range(meaning, given.name)
+    sensor = meaning.spec.environment.sensors.get(given.name)
+    cells = meaning.episode.partitions[given.name] if sensor is not None and is_partition(sensor) else ()
+    kind: InputKind = "whole number" if slots[0] in whole else "number"
+    if cells:
+        kind = "cell"
+    elif meaning.episode.after[slots[0]].kind is Kind.TRUTH:
+        kind = "truth"
+    return AgentInput(
+        given.name, kind, (*team, *lengths), cells, low, high, _text(meaning, given.name), slots
+    )
+
+
+def _range(meaning: Meaning, name: str) -> tuple[float | None, float | None]:
+    """Return the bounds of an observation that is one of so many numbers; None where nothing is known."""
+    outside = meaning.spec.environment.outside
+    sizes: Mapping[str, int | None] = (
+        {} if outside is None else {each.name: each.size for each in outside.fields}
+    )
+    size = sizes.get(name)
+    return (None, None) if size is None else (0.0, size - 1.0)
+
+
+def _text(meaning: Meaning, name: str) -> str:
+    environment = meaning.spec.environment
+    if name in environment.sensors:
+        return partition_text(environment.sensors[name])
+    if environment.outside is not None and name in environment.outside.names:
+        return f"of {environment.outside.target}"
+    is_world = name in environment.world
+    start = one_line((environment.world if is_world else environment.state)[name])
+    then = f", then {one_line(environment.dynamics[name])}" if name in environment.dynamics else ""
+    return f"{'world' if is_world else 'state'}: starts as {start}{then}"
+
+
+def complaint(
+    inputs: Mapping[str, AgentInput], known: Collection[str], given: Mapping[str, Any]
+) -> BadInput | None:
+    """Return what is wrong with the names and the shapes of what an agent is given; None if nothing is."""
+    if not hasattr(given, "keys"):
+        return BadInput(f"a mapping of names to values is needed, not {given!r}")
+    for name in given:
+        if name not in known:
+            return _named(f"there is no {name!r}{did_you_mean(str(name), inputs)}", inputs)
+    if missing := [name for name in inputs if name not in given]:
+        return _named(f"missing: {', '.join(missing)}", inputs)
+    for each in inputs.values():
+        if each.shape and not _has_shape(given[each.name], each.shape):
+            lengths = " by ".join(map(str, each.shape))
+            return BadInput(f"{each.name}: {lengths} values are needed, not {given[each.name]!r}")
+    return None
+
+
+def _named(message: str, inputs: Mapping[str, AgentInput]) -> BadInput:
+    error = BadInput(message)
+    error.advice = f"the inputs are {', '.join(inputs) or 'none'}"
+    return error
+
+
+def _has_shape(value: Any, shape: tuple[int, ...]) -> bool:  # noqa: ANN401 - whatever was given
+    if not shape:
+        return True
+    try:
+        items = [*value]
+    except TypeError:
+        return False
+    return len(items) == shape[0] and all(_has_shape(item, shape[1:]) for item in items)

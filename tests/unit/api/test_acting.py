@@ -1,0 +1,329 @@
+"""Agents: that they do what their robots do in episodes, and what they say to a program that uses them wrongly."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+import bbsd
+from bbsd.agent import BadInput
+from bbsd.agent.making import design_of
+from bbsd.agent.many import loop_source
+from bbsd.api.acting import Agent, NothingDone
+from bbsd.architecture import Architecture, HolesLeft, architecture_of
+from bbsd.architecture.needs import NotMeasured
+from bbsd.compiler import compile_meaning
+from bbsd.evaluation.recording import record_episode
+from bbsd.kernel.modules import load_kernel
+from bbsd.language.loading import load
+from bbsd.language.meaning import elaborate
+from bbsd.language.models import Spec
+from bbsd.text import Source
+from tests.interpreter.made_up import specs
+from tests.interpreter.made_up_designs import random_agents
+from tests.unit.architecture.designs import SPECS, meaning_of, small
+from tests.unit.architecture.needs.test_needs import ROBOT, acted_values, bits
+from tests.unit.exports.designs import SHIPPED
+
+LIFTING = SPECS / "object_lifting_hand.yaml"
+SEEN = {"height": 2.9, "tilt": 6.2, "place": "lowest"}
+
+
+def values_given(agent, stored):
+    """What an agent is given of what an episode stores, in the lists that it wants."""
+    given_values = {}
+    for name, each in agent.inputs.items():
+        values = np.empty(each.shape, object)
+        for place, slot in zip(np.ndindex(each.shape), each.slots, strict=True):
+            value = stored[slot]
+            values[place] = each.cells[int(value)] if each.kind == "cell" else value
+        given_values[name] = values.tolist()
+    return given_values
+
+
+def assert_same(meaning, design, key, generation=1):
+    """Each robot's agent does in each step what the robot does in the recorded episode, to the last bit."""
+    recording = record_episode(compile_meaning(meaning, compiled=False), design, key, generation)
+    constants = meaning.constants.vector(generation)
+    agents = Agent.of(design_of(meaning, design), not_finite="count")
+    for agent in agents:
+        agent.reset(key=key)
+    numbers = set()
+    for step, stored in enumerate(recording.stored):
+        acted = acted_values(meaning, recording, step, constants)
+        by_slot = {(slot.name, slot.robot): value for slot, value in acted.items()}
+        for robot, agent in enumerate(agents):
+            act = agent.act(values_given(agent, stored))
+            assert act.number == recording.choices[step, robot]
+            for name, value in act.sets.items():
+                assert bits(value) == bits(by_slot[name, robot])
+            numbers.add(act.number)
+    return numbers
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_designs_do_what_they_do_in_episodes(name):
+    loaded = load(Source.read(SPECS / f"{name}.yaml"), overrides=["environment.steps=30"])
+    meaning, generation = loaded.meaning, loaded.spec.design.coevolution.generations
+    numbers = set()
+    for key in range(3):
+        numbers |= assert_same(meaning, architecture_of(meaning), key, generation)
+    assert len(numbers) > 1
+
+
+@pytest.mark.parametrize("robots", [1, 3])
+def test_memory_draws_and_what_was_before_are_as_in_episodes(robots):
+    meaning = meaning_of(ROBOT.format(robots=robots))
+    for key in range(4):
+        assert len(assert_same(meaning, architecture_of(meaning), key)) > 1
+
+
+@pytest.mark.slow
+@settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+@given(data=st.data(), seed=st.integers(0, 10**6))
+def test_made_up_designs_do_what_they_do_in_episodes(data, seed):
+    meaning, mistakes = elaborate(Spec.model_validate(data.draw(specs(most_robots=3))), seed)
+    assume(mistakes == ())
+    agents = random_agents(compile_meaning(meaning, compiled=False), 1, seed)
+    tables = tuple(pool[member] for pool, member in zip(agents.pools, agents.members[0], strict=True))
+    generation = meaning.spec.design.coevolution.generations
+    assert_same(meaning, Architecture(tables, agents.structures[0]), int(agents.keys[0]), generation)
+
+
+@pytest.mark.parametrize("name", ["object_lifting_hand", "forager_hand"])
+def test_many_do_what_one_does(name):
+    many, rng = Agent(SPECS / f"{name}.yaml", seed=3), np.random.default_rng(1)
+    ones = [Agent(SPECS / f"{name}.yaml", seed=3) for _ in range(5)]
+    for step in range(30):
+        rows = {
+            each.name: rng.integers(0, max(2, len(each.cells)), 5).astype(
+                bool if each.kind == "truth" else int
+            )
+            if each.kind in ("cell", "truth")
+            else rng.uniform(-4, 6, 5)
+            for each in many.inputs.values()
+        }
+        if step == 20:
+            many.reset_many([1, 3])
+            ones[1].reset()
+            ones[3].reset()
+        acts = many.act_many(rows)
+        for lane, one in enumerate(ones):
+            act = one.act({name: row[lane] for name, row in rows.items()})
+            assert acts.numbers[lane] == act.number
+            for state, values in acts.sets.items():
+                assert bits(float(values[lane])) == bits(float(act.sets.get(state, float("nan"))))
+
+
+def test_the_loop_of_many_is_also_plain_python():
+    agent = Agent(LIFTING)
+    module = load_kernel(loop_source(agent._program), "agent", (), compiled=False)
+    numbers, sets = np.zeros(1, np.int64), np.full((1, 1), np.nan)
+    values = np.array([[2.9], [6.2], [0.0]])
+    module.many(values, np.zeros((1, 1)), np.ones(1, np.int64), np.zeros(1, np.uint64), numbers, sets)
+    assert (numbers[0], sets[0, 0]) == (4, 1.0)
+
+
+def test_lists_of_many_have_the_robots_first():
+    agent = Agent(SPECS / "mobile_robot_hand.yaml")
+    sonar = np.full((3, 8), 2.0)
+    sonar[1, :] = 0.5
+    acts = agent.act_many({"whim": 0.25, "sonar": sonar, "light": [0.0, 0.0, 0.0, 0.0]})
+    assert [agent.actions[number - 1] for number in acts.numbers] == [
+        ("wander", "stroll"),
+        ("avoid_obstacles", "back"),
+        ("wander", "stroll"),
+    ]
+    assert acts.sets["turn"].tolist() == [0.25, 0.5, 0.25]
+    with pytest.raises(BadInput, match="there were 3 robots, and 2 are given"):
+        agent.act_many({"whim": 0.25, "sonar": sonar[:2], "light": [0.0] * 4})
+    agent.reset_many()
+    assert len(agent.act_many({"whim": [0.25, 1], "sonar": sonar[:2], "light": [0.0] * 4}).numbers) == 2
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        (
+            {"sonar": np.zeros((3, 7))},
+            "sonar: an array of n by 8 values is needed, not one of shape \\(3, 7\\)",
+        ),
+        ({"whim": [1.0, 2.0]}, "the values are for different numbers of robots: 2, 3"),
+        ({"whim": ["a", "b", "c"]}, "whim: 'a' is no number"),
+        ({"whim": [1.0, np.nan, 2.0]}, "whim: nan of robot 1 is not finite"),
+        ({"wimm": 1.0}, "there is no 'wimm'; did you mean \"whim\""),
+    ],
+)
+def test_what_is_wrong_with_many_is_told(wrong, message):
+    agent = Agent(SPECS / "mobile_robot_hand.yaml")
+    with pytest.raises(BadInput, match=message):
+        agent.act_many({"whim": 0.1, "sonar": np.zeros((3, 8)), "light": np.zeros((3, 4)), **wrong})
+    with pytest.raises(BadInput, match="missing: sonar"):
+        agent.act_many({"whim": 0.1, "light": np.zeros((3, 4))})
+
+
+def test_it_says_what_it_must_be_given():
+    agent = Agent(LIFTING)
+    assert [*agent.inputs] == ["height", "tilt", "place"]
+    assert agent.inputs["place"].kind == "cell"
+    assert agent.inputs["place"].cells == ("lowest", "highest", "middle")
+    assert agent.inputs["height"].text == "state: starts as uniform(2, 3), then height + speed * dt"
+    assert agent.inputs["tilt"].text.startswith("degrees(atan(hypot(")
+    sonar = Agent(SPECS / "mobile_robot_hand.yaml").inputs["sonar"]
+    assert (sonar.kind, sonar.shape, len(sonar.slots)) == ("number", (8,), 8)
+    assert repr(agent) == "<Agent of object-lifting-by-hand: height, tilt, place>"
+
+
+def test_memory_is_kept_and_forgotten():
+    agent = Agent(LIFTING)
+    assert agent.memory == {"speed": 0.0}
+    assert [agent.act(SEEN).sets["speed"] for _ in range(3)] == [1.0, 2.0, 3.0]
+    assert (agent.memory, agent.step) == ({"speed": 3.0}, 3)
+    agent.reset()
+    assert (agent.memory, agent.step, agent.episode) == ({"speed": 0.0}, 0, 1)
+    measured = Agent(LIFTING, measured=["speed"])
+    assert measured.memory == {}
+    assert measured.act({**SEEN, "speed": 4.0}).sets == {"speed": 5.0}
+    with pytest.raises(NotMeasured):
+        Agent(LIFTING, measured=["sped"])
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"plase": "lowest"}, "there is no 'plase'; did you mean \"place\""),
+        ({"height": "2.9"}, "height: '2.9' is no number"),
+        ({"height": True}, "height: True is no number"),
+        ({"height": [2.9]}, "height: \\[2.9\\] is no number"),
+        ({"tilt": float("inf")}, "tilt: inf is not finite"),
+        (
+            {"place": "low"},
+            "place: 'low' is none of its cells; did you mean \"lowest\".: lowest, highest, middle",
+        ),
+        ({"place": 3}, "place: 3 is none of its cells"),
+        ({"place": ["lowest"]}, "place: \\['lowest'\\] is none of its cells"),
+    ],
+)
+def test_a_wrong_value_is_told_and_changes_nothing(wrong, message):
+    agent = Agent(LIFTING)
+    agent.act(SEEN)
+    with pytest.raises(BadInput, match=message):
+        agent.act({**SEEN, **wrong})
+    assert (agent.step, agent.memory) == (1, {"speed": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("missing", "message"), [({}, "missing: height, tilt, place"), ([1], "a mapping of names")]
+)
+def test_what_is_missing_is_told(missing, message):
+    with pytest.raises(BadInput, match=message) as raised:
+        Agent(LIFTING).act(missing)
+    assert raised.value.__cause__ is None
+
+
+def test_lists_of_a_wrong_length_are_told():
+    agent = Agent(SPECS / "mobile_robot_hand.yaml")
+    for sonar in ([1.0] * 7, [1.0] * 9, 1.0, "12345678"):
+        with pytest.raises(BadInput, match="sonar: "):
+            agent.act({"whim": 0.1, "sonar": sonar, "light": [0.0] * 4})
+
+
+def test_names_of_the_spec_that_are_not_needed_are_not_looked_at():
+    assert Agent(LIFTING).act({**SEEN, "speed": "whatever", "tilted": None}).action == "faster"
+
+
+def test_numbers_of_numpy_and_cells_by_index_are_taken():
+    given_values = {"height": np.float32(2.5), "tilt": np.int64(6), "place": np.int32(0)}
+    assert Agent(LIFTING).act(given_values) == (4, "hurry_up", "faster", {"speed": 1.0})
+
+
+KINDS = small("""
+  a:
+    inputs: {n: "values(count, -1, 2)", bright: lit}
+    actions: {go: {x: count}}
+    rules: [{when: {n: 1, bright: true}, do: go}, {otherwise: no action}]
+structure: [a]
+""").replace(
+    "state: {x: 0}",
+    "state: {x: 0}, world: {w: 0}, sensors: {count: floor(w), lit: w > 1, zone: 'cut(w, 1, 2)'}",
+)
+
+
+def test_truths_and_whole_numbers_have_to_be_such(tmp_path):
+    path = tmp_path / "spec.yaml"
+    path.write_text(KINDS)
+    agent = Agent(path)
+    assert {name: each.kind for name, each in agent.inputs.items()} == {
+        "count": "whole number",
+        "lit": "truth",
+    }
+    for lit in (True, 1, np.True_, 1.0):
+        assert agent.act({"count": 1, "lit": lit}).sets == {"x": 1.0}
+    assert agent.act({"count": 1, "lit": False}) == (0, None, None, {})
+    with pytest.raises(BadInput, match=r"count: 1\.5 is no whole number"):
+        agent.act({"count": 1.5, "lit": True})
+    with pytest.raises(BadInput, match="lit: 2 is neither true nor false"):
+        agent.act({"count": 1, "lit": 2})
+
+
+def test_numbers_that_are_not_finite_can_be_counted():
+    agent = Agent(LIFTING, not_finite="count")
+    assert agent.act({**SEEN, "tilt": float("nan")}).action == "push"
+    assert agent.act({**SEEN, "height": float("inf")}).action == "stop"
+    assert agent.not_finite == 2
+
+
+def test_why_is_told_in_words_and_as_an_answer():
+    agent = Agent(LIFTING)
+    with pytest.raises(NothingDone):
+        agent.answer()
+    agent.act(SEEN)
+    agent.act(SEEN)
+    assert agent.why.startswith("object-lifting-by-hand: step 2, robot 0\nhurry_up controlled: faster.\n")
+    assert "Before the step: height 2.9, tilt 6.2, place lowest, speed 1" in agent.why
+    answer = agent.answer(unwanted=["faster"])
+    assert (answer.behavior, answer.action) == ("hurry_up", "faster")
+    assert answer.otherwise[0].inputs[0].input == "tilted"
+
+
+def test_why_agrees_with_the_command():
+    agent = Agent(LIFTING)
+    agent.act(SEEN)
+    situation = {"height": 2.9, "tilt": 6.2, "place": "lowest", "speed": 0}
+    said = bbsd.why(LIFTING, at=situation)
+    assert said.layers == agent.answer().layers
+
+
+def test_a_design_with_holes_or_another_robot_is_refused():
+    with pytest.raises(HolesLeft):
+        Agent(SPECS / "object_lifting.yaml")
+    with pytest.raises(BadInput, match="there is no robot 3: the design is for 3"):
+        Agent(LIFTING, robot=3)
+
+
+def test_a_team_is_one_agent_for_each_robot():
+    team = Agent.team(LIFTING)
+    assert [agent.inputs["height"].slots[0].robot for agent in team] == [0, 1, 2]
+    assert team[2].act(SEEN) == Agent(LIFTING, robot=2).act(SEEN)
+    assert team[0].memory == {"speed": 0.0}
+
+
+def test_the_digest_is_that_of_its_exports():
+    assert Agent(LIFTING).digest in bbsd.export(LIFTING, "python").text
+
+
+ALONE = """
+import sys
+import bbsd
+agent = bbsd.Agent(sys.argv[1])
+agent.act({"height": 2.9, "tilt": 6.2, "place": "lowest"})
+assert agent.why
+assert not {"numba", "llvmlite"} & {*sys.modules}, "numba"
+"""
+
+
+def test_one_agent_needs_no_compiler():
+    subprocess.run([sys.executable, "-c", ALONE, str(LIFTING)], check=True)
