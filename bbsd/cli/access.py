@@ -17,6 +17,13 @@ class Access(TypedDict):
     announce: Callable[[str, str], None]
 
 
+class Stepping(Access):
+    """How it may be opened and stepped."""
+
+    by_table: bool
+    note: Callable[[str], None]
+
+
 def access(allow_import: list[str] | None, import_from: list[Path] | None, step_limit: float) -> Access:
     """Return the arguments of a verb that the options of a command are."""
     return Access(
@@ -25,6 +32,21 @@ def access(allow_import: list[str] | None, import_from: list[Path] | None, step_
         step_limit=step_limit,
         announce=_announce,
     )
+
+
+def stepping(
+    allow_import: list[str] | None, import_from: list[Path] | None, step_limit: float, *, in_python: bool
+) -> Stepping:
+    """Return the arguments of a verb that runs episodes."""
+    said = set[str]()
+
+    def note(sentence: str) -> None:
+        """Print a sentence on the environment, once."""
+        if sentence not in said:
+            said.add(sentence)
+            say(sentence)
+
+    return Stepping(**access(allow_import, import_from, step_limit), by_table=not in_python, note=note)
 
 
 def _announce(module: str, file: str) -> None:

@@ -9,9 +9,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.access import access
+from bbsd.cli.access import stepping
 from bbsd.cli.budget import read_budget, read_seeds
-from bbsd.cli.options import AllowImport, AsJson, ImportFrom, Lanes, Overrides, Seed, SpecFile, StepLimit
+from bbsd.cli.options import (
+    AllowImport,
+    AsJson,
+    ImportFrom,
+    InPython,
+    Lanes,
+    Overrides,
+    Seed,
+    SpecFile,
+    StepLimit,
+)
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
@@ -127,6 +137,7 @@ def design(
     allow_import: AllowImport = None,
     import_from: ImportFrom = None,
     step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
     as_json: AsJson = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only estimate what the design would cost; write nothing.")
@@ -141,7 +152,7 @@ def design(
     from bbsd.language.loading import load
     from bbsd.text import Source
 
-    opening = access(allow_import, import_from, step_limit)
+    opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     require_figures(plot, plot_to, plot_beside, seed)
     _make_folder(tensorboard)
     set_by_budget, within = read_budget(budget)

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.access import access
+from bbsd.cli.access import stepping
 from bbsd.cli.options import (
     AllowImport,
     AsJson,
     DesignFile,
     Episode,
     ImportFrom,
+    InPython,
     Jobs,
     Lanes,
     Overrides,
@@ -139,6 +140,7 @@ def evaluate(
     allow_import: AllowImport = None,
     import_from: ImportFrom = None,
     step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
     as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
@@ -172,7 +174,7 @@ def evaluate(
         return
     from bbsd.report.progress import episode_listener
 
-    opening = access(allow_import, import_from, step_limit)
+    opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     with episode_listener(error_console()) as listener:
         evaluation = bbsd.evaluate(
             loaded,

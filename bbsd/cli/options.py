@@ -102,6 +102,14 @@ StepLimit = Annotated[
     ),
 ]
 
+InPython = Annotated[
+    bool,
+    typer.Option(
+        "--step-in-python",
+        help="Step the spec's environment in Python also where its table of transitions could be used.",
+    ),
+]
+
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 FormatIsJson = Annotated[bool, typer.Option("--json", help="The same as --format json.")]
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.api import Designed
-    from bbsd.cli.access import Access
+    from bbsd.cli.access import Stepping
 
 CURVES = "curves.png"
 """The figure in the folder of a design."""
@@ -42,7 +42,7 @@ def draw_search(
     seed: int,
     beside: Path | None,
     figures: "Sequence[Path]",
-    opening: "Access",
+    opening: "Stepping",
 ) -> None:
     """Draw the metrics, after the result is shown: matplotlib takes longer than a small design."""
     if not figures:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from bbsd.environments.importing.consent import Consent
@@ -18,6 +18,7 @@ from bbsd.environments.spaces.kinds import Space, space_of, space_of_value
 from bbsd.environments.spaces.misfits import Misfit, UnfitError
 from bbsd.environments.spaces.reading import reader_of
 from bbsd.environments.spaces.sending import sender_of
+from bbsd.environments.tables import NoTable, copied_table
 from bbsd.errors import UsageError, escape
 from bbsd.language.outside import Field, Outside
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from bbsd.environments.importing.modules import Announce
     from bbsd.environments.lanes.common import Lanes
     from bbsd.environments.making import Making
+    from bbsd.environments.tables import TransitionTable
     from bbsd.text import Data
 
 
@@ -34,6 +36,10 @@ class OtherEnvironment(UsageError):
     """Another process has another version of an environment."""
 
     advice = "install the same versions everywhere"
+
+
+TABLE = "table"
+"""Under which the digest of an environment's table of transitions is kept, where it is stepped by it."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +114,8 @@ class Opened:
     """The agents of a PettingZoo environment; none of others."""
     origin: dict[str, str]
     """Versions of distributions by their modules, and a digest of the file that the environment is from."""
+    table: TransitionTable | None = None
+    """The transitions by which it is stepped, instead of in Python; None where it is not."""
 
     @property
     def name(self) -> str:
@@ -143,6 +151,7 @@ class Opened:
             "action space": "unknown" if self.taken is None else str(self.taken),
             **({"agents": " ".join(self.agents)} if self.agents else {}),
             **({} if self.making.most_steps is None else {"step limit": str(self.making.most_steps)}),
+            **({} if self.table is None else {TABLE: self.table.digest}),
         }
 
     def __reduce__(self) -> tuple[Callable[..., Opened], tuple[dict[str, Data], dict[str, str]]]:
@@ -155,12 +164,22 @@ def opened_again(recipe: dict[str, Data], expected: dict[str, str]) -> Opened:
     Raises OtherEnvironment where it is not the one that is expected.
     """
     opened = open_environment(recipe_of(recipe))
+    if TABLE in expected:
+        opened = replace(opened, table=_table_again(opened))
     found = opened.plain()
     different = [key for key in {**expected, **found} if expected.get(key) != found.get(key)]
     if different:
         words = [f"{key} ({found.get(key, 'none')}, not {expected.get(key, 'none')})" for key in different]
         raise OtherEnvironment(f"{opened.name} is another one in a worker process: {', '.join(words)}")
     return opened
+
+
+def _table_again(opened: Opened) -> TransitionTable | None:
+    """Return the table of an environment that another process has compared with real steps."""
+    try:
+        return replace(copied_table(opened.make()), most_steps=opened.making.most_steps)
+    except NoTable:
+        return None
 
 
 def open_environment(recipe: Recipe, announce: Announce | None = None) -> Opened:

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.environments.opening import OtherEnvironment
+from bbsd.environments.lanes.calling import calling
+from bbsd.environments.lanes.time_limit import CallWatch
 from bbsd.environments.tables import NoTable, Transition, copied_table, has_table
 from bbsd.kernel.streams import fold, name_word, unit
 
 if TYPE_CHECKING:
+    from bbsd.environments.making import Making
     from bbsd.environments.opening import Opened
     from bbsd.environments.tables import Floats, Integers, TransitionTable
 
@@ -53,36 +55,31 @@ class TableCheck:
 def checked_table(opened: Opened) -> tuple[TransitionTable, TableCheck] | None:
     """Return the table of an environment after real steps that agreed with it; None where it claims to have none.
 
-    Raises NoTable where its table cannot be used, or the environment does not keep to it.
+    Raises:
+        NoTable: its table cannot be used, or the environment does not keep to it.
+        EnvironmentHangs: it takes too long.
     """
-    environment = opened.make()
-    if not has_table(environment):
-        return None
-    table = replace(copied_table(environment), most_steps=opened.making.most_steps)
+    refused = None
+    watch = CallWatch(opened.recipe.seconds)
+    with calling(lambda: f"{opened.name}, when its table of transitions was checked,", watch):
+        try:
+            return _checked(opened.making)
+        except NoTable as error:
+            refused = error
+    raise refused
+
+
+def _checked(making: Making) -> tuple[TransitionTable, TableCheck] | None:
     try:
+        environment = making.make()
+        if not has_table(environment):
+            return None
+        table = replace(copied_table(environment), most_steps=making.most_steps)
         return table, check_table(environment, table)
     except NoTable:
         raise
     except Exception as error:  # noqa: BLE001 - all that somebody else's code may raise
-        raise NoTable(f"it failed: {type(error).__name__}: {error}") from None
-
-
-def table_again(opened: Opened, digest: str | None) -> TransitionTable | None:
-    """Return the table of an environment that another process has checked; None where that process steps without one.
-
-    Raises OtherEnvironment where it is not the same table.
-    """
-    if digest is None:
-        return None
-    try:
-        table = replace(copied_table(opened.make()), most_steps=opened.making.most_steps)
-    except NoTable as error:
-        raise OtherEnvironment(
-            f"{opened.name} has no table of transitions in a worker process: {error}"
-        ) from None
-    if table.digest != digest:
-        raise OtherEnvironment(f"{opened.name} has another table of transitions in a worker process")
-    return table
+        raise NoTable(f"a step of the check raised {type(error).__name__}: {error}") from None
 
 
 def check_table(environment: Any, table: TransitionTable) -> TableCheck:  # noqa: ANN401 - any environment

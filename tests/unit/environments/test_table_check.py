@@ -1,14 +1,29 @@
 """Real environments and their tables: those that keep to them, and those that do not."""
 
+import pickle
+from dataclasses import replace
 from types import SimpleNamespace
 
 import gymnasium
 import numpy as np
 import pytest
 
-from bbsd.environments.opening import OtherEnvironment
-from bbsd.environments.table_check import check_table, checked_table, table_again
+from bbsd.environments.opening import OtherEnvironment, open_environment, opened_again, recipe_of
+from bbsd.environments.table_check import check_table, checked_table
 from bbsd.environments.tables import NoTable, copied_table
+
+RECIPE = {
+    "kind": "gymnasium",
+    "target": "FrozenLake-v1",
+    "arguments": {},
+    "fields": [["square", 16, None]],
+    "actions": ["way"],
+    "robots": 1,
+    "modules": ["gymnasium"],
+    "folders": [],
+    "closed": [],
+    "seconds": 30.0,
+}
 
 
 class Chain:
@@ -49,8 +64,8 @@ def test_an_environment_that_keeps_to_its_table_passes(slip):
 
 def opened(environment, most_steps=None):
     """What an opened environment is to the check."""
-    making = SimpleNamespace(most_steps=most_steps)
-    return SimpleNamespace(make=lambda: environment, making=making, name="Chain-v0")
+    making = SimpleNamespace(most_steps=most_steps, make=lambda: environment)
+    return SimpleNamespace(making=making, name="Chain-v0", recipe=SimpleNamespace(seconds=30.0))
 
 
 class OtherReward(Chain):
@@ -113,7 +128,7 @@ class SeesWords(Chain):
         (StartsElsewhere(), "began in state 2, which initial_state_distrib excludes"),
         (StartsMostlyAtTheFirst(0.5), "first states do not come as often"),
         (SlipsMore(0.3), "do not come as often as its table says"),
-        (Breaks(), "it failed: ZeroDivisionError: no more"),
+        (Breaks(), "a step of the check raised ZeroDivisionError: no more"),
         (SeesMore(), "observed 7, which is none of its 5 states"),
         (SeesWords(), "something else than the number of its state"),
     ],
@@ -151,16 +166,13 @@ def test_an_environment_without_a_table_has_none():
 
 
 def test_another_process_uses_the_same_table_without_checking_it_again():
-    table, _ = checked_table(opened(Chain(0.3)))
-    stuck = Breaks(0.3)
+    opened = open_environment(recipe_of(RECIPE))
+    table, _ = checked_table(opened)
+    by_table = replace(opened, table=table)
+    again = opened_again(by_table.recipe.plain(), by_table.plain())
 
-    assert table_again(opened(stuck), table.digest).digest == table.digest
-    assert table_again(opened(stuck), None) is None
-    with pytest.raises(
-        OtherEnvironment, match="Chain-v0 has another table of transitions in a worker process"
-    ):
-        table_again(opened(Chain(0.2)), table.digest)
-    with pytest.raises(OtherEnvironment, match="another table"):
-        table_again(opened(stuck, most_steps=9), table.digest)
-    with pytest.raises(OtherEnvironment, match="no table of transitions in a worker process: a prob"):
-        table_again(opened(Chain(-0.5)), table.digest)
+    assert by_table.plain()["table"] == table.digest == again.table.digest
+    assert opened_again(opened.recipe.plain(), opened.plain()).table is None
+    assert pickle.loads(pickle.dumps(by_table)).table.digest == table.digest
+    with pytest.raises(OtherEnvironment, match=r"FrozenLake-v1 is another one .* table \(.*, not 0123\)"):
+        opened_again(by_table.recipe.plain(), {**by_table.plain(), "table": "0123"})
