@@ -12,7 +12,10 @@ ROOT = Path(__file__).parents[2]
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
-    ["README.md", "docs/tutorial.md", "docs/howto.md", "docs/understanding.md", "docs/export.md"],
+    [
+        "README.md",
+        *(f"docs/{page}.md" for page in ("tutorial", "howto", "understanding", "export", "environments")),
+    ],
 )
 def test_a_document_shows_what_its_commands_print(name, tmp_path, request):
     (tmp_path / "specs").symlink_to(ROOT / "specs")
