@@ -84,8 +84,8 @@ ENVIRONMENT_KINDS = (
             "The agents of a PettingZoo environment are the robots, so robots is their number; other environments "
             "have one robot."
         ),
-        example="environment:\n  gymnasium: CartPole-v1\n  robots: 2",
-        mend="environment:\n  gymnasium: CartPole-v1\n  robots: 1",
+        example="environment:\n  pettingzoo: mpe2.simple_spread_v3\n  robots: 2",
+        mend="environment:\n  pettingzoo: mpe2.simple_spread_v3\n  robots: 3",
     ),
     DiagnosisKind(
         code="BB121",

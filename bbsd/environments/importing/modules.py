@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
@@ -79,7 +80,9 @@ def imported(module: str, consent: Consent, whose: str, announce: Announce | Non
         if announce is not None:
             announce(top, found.origin or ", ".join(found.submodule_search_locations or ()) or "built in")
     try:
-        return import_module(module)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # as an error, Box2D's ends the process
+            return import_module(module)
     except ModuleNotFoundError as error:
         if error.name is not None and (module == error.name or module.startswith(f"{error.name}.")):
             raise _missing(error.name, whose) from None
