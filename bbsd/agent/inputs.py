@@ -148,7 +148,7 @@ def _text(meaning: Meaning, name: str) -> str:
     if name in environment.sensors:
         return partition_text(environment.sensors[name])
     if environment.outside is not None and name in environment.outside.names:
-        return f"of {environment.outside.target}"
+        return f"observation of {environment.outside.target}"
     is_world = name in environment.world
     start = one_line((environment.world if is_world else environment.state)[name])
     then = f", then {one_line(environment.dynamics[name])}" if name in environment.dynamics else ""

@@ -36,7 +36,7 @@ class Given:
 
     name: str
     block: str
-    """The block of the spec that it belongs to: world, state or sensors."""
+    """The block of the spec that it belongs to: world, state, observation (`earned` too) or sensors."""
     of_team: bool
     slots: tuple[Slot, ...]
     """Of robot 0, or of the team in the robots' order."""
@@ -301,6 +301,7 @@ class _Analysis:
         blocks = {
             "world": [*self.environment.world],
             "state": [*self.environment.state],
+            "observation": [*self.environment.outside.names] if self.environment.outside else [],
             "sensors": [*self.environment.sensors],
         }
         return tuple(
