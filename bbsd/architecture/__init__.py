@@ -6,6 +6,7 @@ from bbsd.architecture.architecture import (
     architecture_of,
     given_architecture,
     holes,
+    holes_of,
 )
 from bbsd.architecture.document import designed_text, require_writable
 from bbsd.architecture.policy import JointSpace, behavior_keys, joint_space, policy
@@ -22,6 +23,7 @@ __all__ = [
     "designed_text",
     "given_architecture",
     "holes",
+    "holes_of",
     "joint_space",
     "policy",
     "require_writable",

@@ -45,7 +45,7 @@ def architecture_of(meaning: Meaning) -> Architecture:
     Raises:
         HolesLeft: something is open; the message says what.
     """
-    if descriptions := _holes(meaning):
+    if descriptions := holes_of(meaning):
         raise HolesLeft(f"the design has holes: {'; '.join(descriptions)}")
     given = [np.frombuffer(module.table.given, np.uint8) for module in meaning.episode.modules]
     tables = tuple(np.where(cells == OPEN_CELL, np.uint8(NO_ACTION), cells) for cells in given)
@@ -54,10 +54,11 @@ def architecture_of(meaning: Meaning) -> Architecture:
 
 def holes(problem: Problem) -> list[str]:
     """Return what a spec leaves open, in words: `stop: 2 of 2 cells open`, `5 of 5 layers open`."""
-    return _holes(problem.meaning)
+    return holes_of(problem.meaning)
 
 
-def _holes(meaning: Meaning) -> list[str]:
+def holes_of(meaning: Meaning) -> list[str]:
+    """Return what the meaning of a spec leaves open, in words, as `holes`."""
     layers = meaning.structure.layers
     n_open = layers.count(OPEN_LAYER)
     cells = [

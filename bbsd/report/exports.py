@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from bbsd.api.exporting import Export
     from bbsd.exports.verification.comparing import Verified
 
+LONGEST = 9
+"""Digits of a number that is written out."""
+
 
 def verified_lines(export: Export) -> list[str]:
     """Return a line for each tool that ran an export, and one for a cell in which it differs."""
@@ -24,10 +27,16 @@ def _lines(verified: Verified) -> list[str]:
     if verified.failure:
         return [f"{verified.tool}: not verified: {verified.failure}"]
     counts = f"{verified.tool}: {verified.equal:,} of {verified.compared:,} cells equal"
-    proof = "" if verified.is_proof else f" (tested, not proven: there are about {verified.joint_size:.0e})"
+    proof = "" if verified.is_proof else f" (tested, not proven: there are {_magnitude(verified.joint_size)})"
     lines = [counts + proof]
     if verified.first_difference is not None:
         cells = ", ".join(f"{name} {label}" for name, label in verified.first_difference.cells)
         design, target = verified.first_difference.design, verified.first_difference.target
         lines.append(f"  where {cells}: the design decides {design}, {verified.tool} {target}")
     return lines
+
+
+def _magnitude(number: int) -> str:
+    """Return a number whose digits nobody would read as a power of ten."""
+    digits = len(str(number))
+    return f"{number:,}" if digits <= LONGEST else f"about 10^{digits - 1}"

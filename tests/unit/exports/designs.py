@@ -84,3 +84,10 @@ def there():
         if os.environ.get(MUST_BE_THERE):
             raise
         pytest.skip(f"{missing} is not on this machine")
+
+
+def require(verified):
+    """Skip a test where what was to verify is not there, unless it must be."""
+    if verified.missing:
+        assert not os.environ.get(MUST_BE_THERE), f"{verified.tool} is missing"
+        pytest.skip(f"{verified.tool} is not on this machine")
