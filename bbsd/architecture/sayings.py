@@ -12,16 +12,14 @@ if TYPE_CHECKING:
 
 
 def input_texts(spec: Spec, behavior: Behavior) -> dict[str, str]:
-    """Return for each input of a behavior its partition, or the state that it reads."""
+    """Return for each input of a behavior what gives its cell: its partition, or the name of what it reads.
+
+    What it reads by name without a partition is a truth of the state, or a discrete number of an observation.
+    """
     if isinstance(behavior.inputs, dict):
         return {name: partition_text(written) for name, written in behavior.inputs.items()}
-    sensors, state = spec.environment.sensors, spec.environment.state
-    return {
-        name: partition_text(sensors[name])
-        if name in sensors
-        else f"state, starts as {one_line(state[name])}"
-        for name in behavior.inputs
-    }
+    sensors = spec.environment.sensors
+    return {name: partition_text(sensors[name]) if name in sensors else name for name in behavior.inputs}
 
 
 def mapping_text(written: Mapping[str, Expression]) -> str:

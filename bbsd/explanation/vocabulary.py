@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.architecture.sayings import input_texts, mapping_text
+from bbsd.architecture.sayings import input_texts, mapping_text, one_line
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -22,10 +22,18 @@ class GlossaryEntry(NamedTuple):
 def inputs_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:
     """Return the inputs of some behaviors, each once, in order of first use."""
     return _entries(
-        (behavior, name, meaning)
+        (behavior, name, _origin(spec, name) if text == name else text)
         for behavior in behaviors
-        for name, meaning in input_texts(spec, spec.behaviors[behavior]).items()
+        for name, text in input_texts(spec, spec.behaviors[behavior]).items()
     )
+
+
+def _origin(spec: Spec, name: str) -> str:
+    """Return where an input comes from that is what it reads: the state or an observation; else its name."""
+    state, outside = spec.environment.state, spec.environment.outside
+    if name in state:
+        return f"state, starts as {one_line(state[name])}"
+    return "observed" if outside is not None and any(field.name == name for field in outside.fields) else name
 
 
 def actions_of(spec: Spec, behaviors: Iterable[str]) -> tuple[GlossaryEntry, ...]:

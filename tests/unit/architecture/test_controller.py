@@ -105,3 +105,15 @@ def test_tables_of_an_architecture_that_is_not_the_specs_own_are_used():
     meaning = meaning_of(small(HAND))
     design = Architecture((np.zeros(3, np.uint8), np.ones(8, np.uint8)), np.array([1, 0]))
     assert command(controller_of(meaning, design), (0, 0, 0)) == 3
+
+
+def test_an_input_that_is_read_by_its_name_has_that_name_as_its_text():
+    meaning = meaning_of(shipped("forager_hand"))
+    texts = {each.name: each.text for each in controller_of(meaning, architecture_of(meaning)).dimensions}
+    assert texts["carrying"] == "carrying"
+    meaning = meaning_of(shipped("gymnasium/lake"))
+    controller = controller_of(meaning, random_architecture(meaning, 0))
+    assert [(each.name, each.text, each.size) for each in controller.dimensions] == [
+        ("row", "row", 4),
+        ("column", "column", 4),
+    ]

@@ -38,3 +38,14 @@ def test_a_truth_of_the_state_is_told_from_a_sensor():
     text = small("  one: {inputs: [lit, seen], actions: {go: {x: 1}}}\n")
     spec = spec_of(text.replace("state: {x: 0}", "state: {x: 0, lit: x > 3}, sensors: {seen: x > 1}"))
     assert inputs_of(spec, ["one"]) == (("lit", "state, starts as x > 3"), ("seen", "x > 1"))
+
+
+def test_a_number_of_an_observation_is_told_as_such():
+    spec = spec_of(shipped("gymnasium/lake"))
+    assert dict(inputs_of(spec, ["sideways"])) == {"row": "observed", "column": "observed"}
+
+
+def test_a_sensor_that_an_input_repeats_by_its_name_is_not_observed():
+    text = small("  one: {inputs: {seen: seen}, actions: {go: {x: 1}}}\n")
+    spec = spec_of(text.replace("state: {x: 0}", "state: {x: 0}, sensors: {seen: x > 1}"))
+    assert dict(inputs_of(spec, ["one"])) == {"seen": "seen"}
