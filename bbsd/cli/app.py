@@ -17,9 +17,10 @@ from bbsd.cli.export import export
 from bbsd.cli.fmt import fmt
 from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
-from bbsd.cli.output import never_fail_to_encode
+from bbsd.cli.output import say
 from bbsd.cli.schema import schema
 from bbsd.cli.spaces import spaces
+from bbsd.cli.streams import steady_streams
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
@@ -31,6 +32,8 @@ from bbsd.version import __version__
 
 GC_THRESHOLD = 100_000
 """New objects between two garbage collections; a command's objects live as long as it does, or die at once."""
+NO = 1
+"""The exit code for the answer no, and for a result that could not be written."""
 
 app = typer.Typer(
     name="bbsd",
@@ -79,8 +82,22 @@ def main() -> None:
     """Run the command line; exit with 0, 1 for the answer no, 2 for a mistake of the user, 130 if interrupted."""
     gc.set_threshold(GC_THRESHOLD)
     atexit.register(gc.freeze)  # Python's last collection would take a tenth of a design's time
+    with steady_streams() as output:
+        code = _run()
+        output.flush()
+        # A reader that has seen enough (`| head`) is no failure.
+        if output.failure is not None and not isinstance(output.failure, BrokenPipeError):
+            say(f"bbsd: the result cannot be written: {output.failure.strerror}")
+            code = code or NO
+    sys.exit(code)
+
+
+def _run() -> int | str | None:
+    """Run the command that was given, and return its exit code."""
     try:
-        never_fail_to_encode(sys.stdout, sys.stderr)
         app(prog_name="bbsd")
+    except SystemExit as left:
+        return left.code
     except Exception as error:  # noqa: BLE001 - raised again unless the user can correct it
-        sys.exit(show_mistake(error))
+        return show_mistake(error)
+    return 0

@@ -4,7 +4,6 @@ import errno
 import os
 import sys
 from contextlib import suppress
-from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
@@ -13,20 +12,14 @@ if TYPE_CHECKING:
 
 
 def show(text: str) -> None:
-    """Print a result to standard output. If its reader has closed it (`| head`), drop the rest without an error."""
-    try:
-        sys.stdout.write(text if text.endswith("\n") or not text else text + "\n")
-        sys.stdout.flush()
-    except BrokenPipeError:
-        _discard(sys.stdout)
+    """Print a result to standard output."""
+    sys.stdout.write(text if text.endswith("\n") or not text else text + "\n")
+    sys.stdout.flush()
 
 
 def say(text: str) -> None:
     """Print a note to standard error."""
-    try:
-        sys.stderr.write(text + "\n")
-    except BrokenPipeError:
-        _discard(sys.stderr)
+    sys.stderr.write(text + "\n")
 
 
 def leave_now(code: int) -> NoReturn:
@@ -35,11 +28,6 @@ def leave_now(code: int) -> NoReturn:
         with suppress(OSError):
             stream.flush()
     os._exit(code)
-
-
-def _discard(stream: TextIO) -> None:
-    """Send what is still in a stream's buffer to nowhere, when Python flushes it at exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def show_table(table: "RenderableType") -> None:
@@ -64,13 +52,6 @@ def _console(stream: TextIO) -> "Console":
     from rich.console import Console
 
     return Console(file=stream, highlight=False, soft_wrap=False)
-
-
-def never_fail_to_encode(*streams: TextIO) -> None:
-    """Make streams escape characters that their encoding does not have, such as block characters in ASCII."""
-    for stream in streams:
-        if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")
 
 
 def has_blocks() -> bool:

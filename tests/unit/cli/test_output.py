@@ -5,7 +5,7 @@ from io import BytesIO, StringIO, TextIOWrapper
 
 import pytest
 
-from bbsd.cli.output import has_blocks, has_color, never_fail_to_encode, require_writable_file, show
+from bbsd.cli.output import has_blocks, has_color, require_writable_file, show
 
 
 class Terminal(StringIO):
@@ -35,14 +35,6 @@ def test_color_is_for_terminals_that_have_and_want_it(monkeypatch):
 def test_block_characters_need_a_unicode_encoding(monkeypatch, encoding, expected):
     monkeypatch.setattr(sys, "stdout", TextIOWrapper(BytesIO(), encoding=encoding))
     assert has_blocks() is expected
-
-
-def test_a_stream_writes_what_its_encoding_lacks_as_escapes():
-    stream = TextIOWrapper(BytesIO(), encoding="ascii")
-    never_fail_to_encode(stream)
-    stream.write("█")
-    stream.flush()
-    assert stream.buffer.getvalue() == b"\\u2588"
 
 
 def test_a_file_can_be_written_where_its_folder_is(tmp_path):
