@@ -21,10 +21,14 @@ class Detail(Enum):
     TERMS = "rollout_detailed"
     TRACE = "rollout_traced"
     PRACTICE = "rollout_practice"
+    WORLD = "world"
+    """Not a rollout: a world that another program steps, by its own choices."""
 
 
 PHASES = ("start", "decide", "outcome", "finish")
 """The parts of a rollout that is printed in phases: its functions are called `rollout_start`, and so on."""
+WORLD_PHASES = ("start", "outcome", "observe", "finish")
+"""The functions of a world."""
 
 IN_DETAIL = frozenset({Detail.TERMS, Detail.TRACE})
 """The rollouts that report what an evaluation adds up."""

@@ -45,7 +45,7 @@ def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...
         Pass(
             "shared slots",
             lambda program: replace(program, meaning=share_slots(program.meaning)),
-            frozenset(Detail),
+            frozenset({Detail.CREDIT, Detail.TERMS, Detail.TRACE, Detail.PRACTICE}),
             "What always holds the same value, as three robots' sensors of one tilt do, is computed and stored once.",
         ),
         Pass(

@@ -45,7 +45,8 @@ class Parts:
         emitter = emitter_of(function, start.values(), step="0", hinted=False)
         first = emitter.blocks.stage(0)
         first.store("key[lane]", Text("keys[base + lane]"))
-        arbitration.start(first)
+        if function.detail is not Detail.WORLD:
+            arbitration.start(first)
         if arbitration.practice is not None:
             arbitration.practice.start(first)
         end = closing_of(emitter.blocks, emitter.stage_of, start.values())
@@ -113,6 +114,16 @@ class Parts:
             *function.actions,
             *(() if practice is None else practice.records),
         ]
+
+    def observe(self) -> list[str]:
+        """Return the lines that write what another program observes of the snapshot."""
+        function = self.function
+        emitter = emitter_of(function, function.observed)
+        block = emitter.blocks.stage(0)
+        for row, node in enumerate(function.observed):
+            text = function.as_stored(emitter.text(node, block), node.kind)
+            block.store(f"observed[{row}, lane]", text)
+        return loop_lines(emitter.blocks, function)
 
     def finish(self) -> list[str]:
         """Return loops that write the sums to where the caller reads them."""

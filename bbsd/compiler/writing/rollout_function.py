@@ -39,6 +39,8 @@ class RolloutFunction:
     detail: Detail
     to_prove: tuple[Node, ...] = ()
     """Truths that must hold; where one does not, the episode must be run again in detail."""
+    observed: tuple[Node, ...] = ()
+    """What another program observes of a world before each choice: values of the snapshot."""
     tables: dict[str, str] = field(default_factory=dict)
     """Tables with an entry for each robot, their source and name: they stand before the function."""
     namer: Namer = field(default_factory=Namer)
@@ -153,7 +155,7 @@ class RolloutFunction:
     def outputs(self) -> list[Node]:
         """What a step computes: what is asked for, and every slot that this reads in a later step, and so on."""
         episode = self.episode
-        outputs = [*credit_outputs(episode), *self.to_prove]
+        outputs = [*credit_outputs(episode), *self.to_prove, *self.observed]
         if self.detail in IN_DETAIL:
             outputs += [node for node in episode.after.values() if node.kind is Kind.NUMBER]
             outputs += [node for nodes in episode.expects.values() for node in nodes]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from bbsd.compiler.details import IN_DETAIL, PHASES, Detail
+from bbsd.compiler.details import IN_DETAIL, PHASES, WORLD_PHASES, Detail
 from bbsd.compiler.writing.naming import PHASED
 from bbsd.compiler.writing.parts import parts_of
 from bbsd.compiler.writing.practice import PRACTICE
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.joint import JointPartition
     from bbsd.compiler.passes.pipeline import Program
     from bbsd.compiler.tables import TableShape
+    from bbsd.expression.graph import Node
 
 SPAN = ("first", "last")
 """The arguments that say which lanes a whole rollout runs."""
@@ -31,6 +32,8 @@ ARGUMENTS = (
     *SPAN, "numbers", "keys", "individuals", "packed_tables", "tables", "table_offsets", "priorities",
     "constants", "returns", "credit",
 )  # fmt: skip
+WORLD = ("numbers", "keys", "constants", "returns", "earned", "observed")
+"""The arguments of a world: what each robot earned in a step, (n_robots, lanes), and what is observed, (n, lanes)."""
 
 
 def module_source(
@@ -40,15 +43,19 @@ def module_source(
     joint: JointPartition | None = None,
     *,
     in_phases: bool = False,
+    observed: Sequence[Node] = (),
 ) -> str:
     """Return the source of a module with the rollouts of these programs, and how much memory they need.
 
-    A rollout for practice needs the joint partition. In phases, there are functions for each rollout's parts.
+    A rollout for practice needs the joint partition. In phases, there are functions for each rollout's parts; a world
+    is always in phases, and needs what is observed of it.
     """
     write = phases_source if in_phases else rollout_source
     texts, used, tables, memory_size = [], set(), dict[str, str](), 0
     for detail, program in programs.items():
-        function = RolloutFunction(program.meaning, shapes, lanes, detail, program.to_prove, tables)
+        function = RolloutFunction(
+            program.meaning, shapes, lanes, detail, program.to_prove, tuple(observed), tables
+        )
         practiced = joint if detail is Detail.PRACTICE else None
         texts.append(f"\n{write(function, practiced)}")
         used |= function.used
@@ -98,19 +105,20 @@ def phases_source(function: RolloutFunction, joint: JointPartition | None = None
 
     What a lane is between them stays in `numbers`; its choices, what it sends and gets, and whether it lives in arrays.
     """
-    function.namer.reserve(PHASED)
+    arguments = [*_arguments(function.detail)[len(SPAN) :], *PHASED]
+    function.namer.reserve(arguments)
     parts = parts_of(function, joint)
     bodies = dict[str, list[str]]()
-    for phase, write in zip(PHASES, (parts.start, parts.decide, parts.outcome, parts.finish), strict=True):
-        bodies[phase] = write()
-        function.namer.forget_all_but([*PHASED, *parts.lasting_names])
+    for phase in WORLD_PHASES if function.detail is Detail.WORLD else PHASES:
+        bodies[phase] = getattr(parts, phase)()
+        function.namer.forget_all_but([*arguments, *parts.lasting_names])
     if function.uncertain is not None:
         bodies["finish"].append(f"return {function.uncertain}.sum() > 0.0")
     setup = [*function.scratch(), *function.call.lines]
-    arguments = ", ".join(["base", "step", *_arguments(function.detail)[len(SPAN) :], *PHASED])
+    declared = ", ".join(["base", "step", *arguments])
     return "\n\n\n".join(
         "\n".join(
-            [f"def {function.detail.value}_{phase}({arguments}):", *indent([*_used(setup, body), *body], 1)]
+            [f"def {function.detail.value}_{phase}({declared}):", *indent([*_used(setup, body), *body], 1)]
         )
         for phase, body in bodies.items()
     )
@@ -134,5 +142,7 @@ def _arguments(detail: Detail) -> list[str]:
     """Return the names of a rollout's arguments."""
     if detail is Detail.PRACTICE:
         return [*(name for name in ARGUMENTS if name != "credit"), *PRACTICE]
+    if detail is Detail.WORLD:
+        return [*SPAN, *WORLD]
     further = DETAILED if detail in IN_DETAIL else ()
     return [*ARGUMENTS, *further, *(["record"] if detail is Detail.TRACE else [])]

@@ -49,7 +49,7 @@ class Totals:
     @cached_property
     def credit(self) -> list[str]:
         """The arrays of each behavior's credit, the last one nobody's; practice gives credit in its own way."""
-        if self.function.detail is Detail.PRACTICE:
+        if self.function.detail in (Detail.PRACTICE, Detail.WORLD):
             return []
         return [self.function.keep(f"credit_{name}") for name in self._controllers]
 
@@ -61,7 +61,7 @@ class Totals:
     def details(self) -> dict[str, list[str]]:
         """Arrays of what a detailed rollout adds up, by the argument that they are written to."""
         function = self.function
-        if function.detail is Detail.CREDIT:
+        if function.detail in (Detail.CREDIT, Detail.WORLD):
             return {}
         if function.detail is Detail.PRACTICE:
             return {"steps_taken": [function.keep("steps_taken_")]}
@@ -96,6 +96,9 @@ class Totals:
         function, earned = self.function, self._earned_by_robot(emitter, end)
         if self.practice is not None:
             self.practice.record_gains(earned, end)
+        if function.detail is Detail.WORLD:
+            for robot, text in enumerate(earned):
+                end.each.store(f"earned[{robot}, lane]", text)
         self._add(end.team, self.total, [self._earned_by_team(earned, end)])
         for index, array in enumerate(self.credit):
             for first in range(0, len(earned), MOST_ADDED):
