@@ -108,9 +108,10 @@ def test_tables_of_an_architecture_that_is_not_the_specs_own_are_used():
 
 
 def test_an_input_that_is_read_by_its_name_has_that_name_as_its_text():
-    meaning = meaning_of(shipped("forager_hand"))
-    texts = {each.name: each.text for each in controller_of(meaning, architecture_of(meaning)).dimensions}
-    assert texts["carrying"] == "carrying"
+    behavior = "  one: {inputs: [lit], actions: {go: {x: 1}}, rules: [{otherwise: go}]}\nstructure: [one]\n"
+    meaning = meaning_of(small(behavior).replace("state: {x: 0}", "state: {x: 0, lit: x > 3}"))
+    (lit,) = controller_of(meaning, architecture_of(meaning)).dimensions
+    assert (lit.name, lit.text, lit.is_condition) == ("lit", "lit", False)
     meaning = meaning_of(shipped("gymnasium/lake"))
     controller = controller_of(meaning, random_architecture(meaning, 0))
     assert [(each.name, each.text, each.size) for each in controller.dimensions] == [
