@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 # The peers have one of their own: numba would import what they need in every process that is measured.
 PEERS := .venv-peers
 
-.PHONY: demo test quick lint unit claims worlds optimum arms methods fuzz figures bench clean
+.PHONY: demo test quick lint unit claims worlds optimum tables arms methods fuzz figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -38,6 +38,10 @@ worlds: $(VENV)/.demo
 
 optimum: $(VENV)/.demo
 	$(BIN)/python -m experiments.optimum $(SPEC)
+
+# Environments with a table of transitions, which need gymnasium.
+tables: $(VENV)/.test
+	$(BIN)/python -m experiments.tables $(SPEC)
 
 arms: $(VENV)/.demo
 	$(BIN)/python -m experiments.arms

@@ -9,6 +9,7 @@ import numpy as np
 from bbsd.architecture import given_architecture
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
+from bbsd.errors import UsageError
 from bbsd.evaluation import (
     Evaluation,
     agents_of,
@@ -20,6 +21,7 @@ from bbsd.evaluation import (
     from_the_top,
     weighted_evaluation,
 )
+from bbsd.evaluation.exact_tables import exact_evaluation
 from bbsd.kernel.keys import own_keys
 from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.judgement import RANDOM_EPISODES
@@ -37,6 +39,13 @@ if TYPE_CHECKING:
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.opening import opened_environment, problem_of
 from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+
+
+class NoSingleEpisodes(UsageError):
+    """What single episodes brought is wanted of an evaluation that runs none."""
+
+    advice = "leave out --exact, or what is wanted of single episodes"
+
 
 EPISODES_OF_RANDOM_AGENT = RANDOM_EPISODES
 """Episodes of each random agent by default, as after a design."""
@@ -72,7 +81,9 @@ def evaluate(
         seed: Seed of the episodes, and of the draws in constants.
         fill: "random" fills the holes at random, once for each of `agents` agents; each has episodes of its own.
         agents: Number of random agents.
-        exact: Run each possible start once, weighted by its probability, instead of random episodes.
+        exact: Run each possible start once, weighted by its probability, instead of random episodes. Where the
+            environment is stepped by its table of transitions, all that chance may do is weighted so, and the
+            optimum is given beside.
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Threads to use; affects only the speed.
         overrides: Values that replace those of the spec.
@@ -92,6 +103,7 @@ def evaluate(
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         NotEnumerable: `exact`, but the starts cannot be enumerated.
+        NoSingleEpisodes: `exact` by a table of transitions, and `keep_each`.
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
@@ -111,6 +123,12 @@ def evaluate(
         architecture = given_architecture(problem)
         agent = agents_of([architecture])
         structure = [problem.names[behavior] for behavior in reversed(architecture.structure.tolist())]
+        if exact and problem.table is not None:
+            if keep_each:
+                raise NoSingleEpisodes(
+                    "an exact mean by a table of transitions comes from no single episodes"
+                )
+            return from_the_top(exact_evaluation(problem, problem.table, architecture, generation), structure)
         if exact:
             problem, weights = enumerate_starts(problem)
             starts = np.arange(len(weights), dtype=np.uint64)

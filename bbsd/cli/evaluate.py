@@ -93,7 +93,8 @@ def evaluate(
     exact: Annotated[
         bool,
         typer.Option(
-            "--exact", help="Run each possible start once instead of random ones: gives the exact mean."
+            "--exact",
+            help="Give the exact mean: by each possible start, or by all that a table of transitions may do.",
         ),
     ] = False,
     overrides: Overrides = None,

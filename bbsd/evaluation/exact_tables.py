@@ -6,6 +6,7 @@ the spec keeps besides: a command that stays where nobody controls, or memory.
 
 from __future__ import annotations
 
+from math import fsum
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 def exact_evaluation(
     problem: Problem, table: TransitionTable, architecture: Architecture, generation: int
 ) -> Evaluation:
-    """Return what a design earns on average over all its episodes, and all else of an evaluation but single returns.
+    """Return what a design earns on average over all its episodes, beside the optimum; single returns are not known.
 
     Raises NotEnumerable, with words, where chance has endlessly many possibilities, or there are too many states.
     """
@@ -33,7 +34,7 @@ def exact_evaluation(
     steps = problem.meaning.spec.environment.steps
     mean, sd = chain.moments(taken.terms.sum(axis=1), steps)
     visits = chain.visits(steps)
-    length = float(visits.sum())
+    length = fsum(visits.tolist())
     names = (*problem.names, "nobody")
 
     def expected(columns: np.ndarray) -> list[float]:
@@ -52,6 +53,7 @@ def exact_evaluation(
         {},
         {name: share / in_control[name] if in_control[name] else float("nan") for name, share in met.items()},
         exact=True,
+        optimum=optimum_by_table(problem, table, generation),
     )
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from bbsd.compiler import DetailedOutcome, Problem
+    from bbsd.evaluation.decision_process import Optimum
 
 Floats = npt.NDArray[np.float64]
 
@@ -74,6 +75,8 @@ class Evaluation:
     exact: bool = False
     spread: Spread | None = None
     """The returns of single episodes; None of a single one."""
+    optimum: Optimum | None = None
+    """What could be earned at best, where the environment's table of transitions says it."""
     each: EachEpisode | None = field(default=None, compare=False, repr=False)
     """What each episode brought, where that was to be kept."""
 

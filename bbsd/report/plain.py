@@ -34,6 +34,9 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
         "reward_terms": {name: finite_or_none(value) for name, value in evaluation.reward_terms.items()},
         "control_share": {name: finite_or_none(value) for name, value in evaluation.control_share.items()},
     }
+    if evaluation.optimum is not None:
+        optimum = evaluation.optimum
+        plain["optimum"] = {"best": finite_or_none(optimum.best), "fixed": finite_or_none(optimum.fixed)}
     if evaluation.spread is not None:
         plain["spread"] = spread_plain(evaluation.spread)
     if evaluation.expectation_share:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation, Interval, Spread
 
 BAR_WIDTH = 24
+SMALL = 1e-9
+"""Mean steps that are a whole number but for rounding."""
 INTERVAL = "95 % interval"
 JOINT_POLICY = "as one joint table"
 
@@ -34,7 +36,7 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
     Bars are made of block characters if the output has them, else of ASCII.
     """
     parts: list[RenderableType] = [
-        Group(_return(evaluation), _basis(evaluation)),
+        Group(_return(evaluation), _basis(evaluation), *_optimum(evaluation)),
         *([] if evaluation.spread is None else [_spread(evaluation.spread)]),
         _reward_terms(evaluation),
         _control(evaluation, blocks=blocks),
@@ -118,12 +120,25 @@ def _return(evaluation: Evaluation) -> Table:
 def _basis(evaluation: Evaluation) -> str:
     """Return the numbers of episodes, steps and agents that the return was measured on."""
     steps = count(round(evaluation.steps), "step")
-    if not evaluation.steps.is_integer():
+    if abs(evaluation.steps - round(evaluation.steps)) > SMALL:
         steps = f"{evaluation.steps:.1f} steps on average"
+    if evaluation.optimum is not None:
+        return f"all {count(evaluation.episodes, 'start')}, and all that chance may do, in {steps}"
     if evaluation.exact:
         return f"all {count(evaluation.episodes, 'start')}, {steps} each"
     agents = f" by {count(evaluation.agents, 'agent')}" if evaluation.agents > 1 else ""
     return f"{count(evaluation.episodes, 'episode')} of {steps}{agents}"
+
+
+def _optimum(evaluation: Evaluation) -> list[str]:
+    """Return what could be earned at best, where that is known."""
+    if evaluation.optimum is None:
+        return []
+    best, fixed = column([evaluation.optimum.best, evaluation.optimum.fixed])
+    lines = [f"optimum of any controller that sees the state: {best}"]
+    if fixed != best:
+        lines.append(f"the best found that always does the same in a state: {fixed}")
+    return lines
 
 
 def _spread(spread: Spread) -> Table:
