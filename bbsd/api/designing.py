@@ -17,10 +17,12 @@ from bbsd.runs.answers import complete_runs
 from bbsd.runs.command import Command
 from bbsd.runs.interim import best_so_far
 from bbsd.runs.joint_policy import joint_policy_returns
+from bbsd.runs.origin import origin_of
 from bbsd.runs.pace import budget_of
 from bbsd.runs.price import Price
 from bbsd.runs.price import price as price_of
-from bbsd.runs.rivals import each_run, paper_episodes, rival, spent
+from bbsd.runs.rival_command import paper_episodes
+from bbsd.runs.rivals import each_run, rival, spent
 from bbsd.runs.searching import ANSWER
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.storage.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
@@ -37,7 +39,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from bbsd.compiler import Problem
-    from bbsd.engines.processes import Processes
+    from bbsd.engines.engine import Engine
     from bbsd.environments.importing.modules import Announce
     from bbsd.environments.opening import Opened
     from bbsd.language.loading import Loaded
@@ -69,7 +71,7 @@ def design(
     overrides: Sequence[str] = (),
     progress: Callable[[AnyProgress], None] | None = None,
     overdue: Callable[[Interrupted], object] | None = None,
-    ready: Processes | None = None,
+    engine: Engine | None = None,
     more: int | None = None,
     within: float | None = None,
     rivals: Sequence[str] = (),
@@ -100,7 +102,8 @@ def design(
         overdue: Called in another thread if the design does not stop soon after an interrupt. An interrupt takes
             effect after the episodes that are running. `overdue` may end the process, since all written files are
             complete.
-        ready: Worker processes that were started before; by default as many are started as are needed.
+        engine: Where runs are done that this process does not do itself; by default so many processes are started
+            as are needed.
         more: Episodes of a further budget for each run that `resume` continues; the same sequence of budgets gives
             the same bytes.
         within: Seconds of each run, instead of a budget in episodes; the result cannot be reproduced.
@@ -121,7 +124,7 @@ def design(
         NoBudget: `more` or `within` for the paper's loop.
         FolderInUse: another process writes in the folder.
         FolderError: the folder cannot be written, or not be resumed.
-        WorkerLost: a process that did a run was killed.
+        RunsLost: four processes that did a run were killed, one after the other; the other runs are complete.
         Interrupted: the design was interrupted; `resume` continues it.
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
@@ -142,10 +145,12 @@ def design(
         budgets = _budgets(settings, problem, folder, more, within)
         if not resume or budgets != folder.budgets():
             folder.write_run_file(run_identity, loaded.overrides, budgets, folder.result() or None, fickle)
-        command = Command(problem, settings, seed, runs, folder, run_identity, budgets, within)
+        command = Command(
+            problem, settings, seed, runs, folder, run_identity, budgets, within, origin_of(loaded, opened)
+        )
         listener = progress and _metrics_listener(command, progress)
         with _interruptible(command, loaded, overdue, keep_best=True):
-            answers = complete_runs(command, jobs, listener, ready)
+            answers = complete_runs(command, jobs, listener, engine)
             judged = judge(answers, problem, settings, seed)
             missed = unvisited(command)
             designed = tidy_tables(problem.meaning, judged.architecture)
@@ -157,9 +162,17 @@ def design(
         names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
         result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
         folder.write_run_file(run_identity, loaded.overrides, budgets, result, fickle)
+        elsewhere = None if engine is None or engine.shares_machine else engine
         with _interruptible(command, loaded, overdue, keep_best=False):
             others = tuple(
-                rival(command, name, loaded, jobs, progress and _metrics_listener(command, progress, name))
+                rival(
+                    command,
+                    name,
+                    loaded,
+                    jobs,
+                    progress and _metrics_listener(command, progress, name),
+                    elsewhere,
+                )
                 for name in rivals
             )
     seconds = time.monotonic() - started

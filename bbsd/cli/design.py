@@ -31,10 +31,12 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from bbsd.api import Designed, Interrupted
-    from bbsd.engines.processes import Processes
+    from bbsd.engines.engine import Engine
     from bbsd.language.loading import Loaded
     from bbsd.runs.price import Price
 
+NEEDED = ("bbsd.runs.portions",)
+"""As in `bbsd.runs.workers`, which takes long to import."""
 LEAST_BUDGET = 5_000
 """As in `bbsd.language.design`, which takes long to import."""
 INTERRUPTED = 130
@@ -168,7 +170,7 @@ def design(
     loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides)
     if not quiet:
         _say_which_method(loaded)
-    with _workers(0 if dry_run or resume or seeds else min(runs, jobs) - 1) as ready:
+    with _workers(0 if dry_run or resume or seeds else min(runs, jobs) - 1) as engine:
         from bbsd import api
         from bbsd.report.progress import generation_listener
 
@@ -209,7 +211,7 @@ def design(
                     rivals=_rivals(rival, loaded, every=compare_methods),
                     progress=listener,
                     overdue=leave,
-                    ready=ready,
+                    engine=engine,
                     **opening,
                 )
 
@@ -255,12 +257,12 @@ def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ..
     return others if every else () if name is None else (name,)
 
 
-def _workers(count: int) -> "AbstractContextManager[Processes | None]":
+def _workers(count: int) -> "AbstractContextManager[Engine | None]":
     if count == 0:
         return nullcontext()
-    from bbsd.engines.processes import waiting_processes
+    from bbsd.engines.local import processes_engine
 
-    return waiting_processes(count, ("bbsd.runs.workers",))
+    return processes_engine(count, NEEDED)
 
 
 def _show_price(price: "Price", *, as_json: bool) -> None:

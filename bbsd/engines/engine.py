@@ -29,6 +29,9 @@ class WorkerLost(Exception):
 class Engine(Protocol):
     """Workers somewhere, which do units."""
 
+    shares_machine: bool
+    """Whether workers are processes of this machine, so that this process is one of as many as were wanted."""
+
     def capacity(self) -> int:
         """Return how many units can be done at the same time now; it may change, and be 0 for a while."""
 
@@ -38,6 +41,12 @@ class Engine(Protocol):
         The future raises WorkerLost where the worker was lost, OtherVersion where it has another version of bbsd, and
         whatever the unit's own work raised.
         """
+
+    def prepare(self, unit: Unit) -> None:
+        """Let workers get ready for units such as this one, where that can be done before there are any."""
+
+    def dismiss(self) -> None:
+        """Let workers end that nothing more will be submitted to."""
 
     def stop(self) -> None:
         """Ask all workers to stop soon; from any thread."""

@@ -39,6 +39,9 @@ ENVIRONMENT = {"PYTHONSAFEPATH": "1", "PYTHONWARNINGS": "ignore:resource_tracker
 """Workers import nothing from the current folder, and loky's tracker cleans up silently after a killed parent."""
 
 
+_setting = threading.RLock()
+
+
 class Processes:
     """Processes that wait for work; what a module of theirs keeps is still there at the next call."""
 
@@ -101,7 +104,8 @@ class Processes:
     def _new_executor(self) -> Any:  # noqa: ANN401 - loky has no types
         from loky import ProcessPoolExecutor
 
-        return ProcessPoolExecutor(1, initializer=_prepare_worker, initargs=(self._reader, self._imports))
+        with _environment():  # loky's tracker is started with the first executor
+            return ProcessPoolExecutor(1, initializer=_prepare_worker, initargs=(self._reader, self._imports))
 
     def _count_down(self, place: _Place) -> None:
         with self._choosing:
@@ -142,14 +146,15 @@ def waiting_processes(count: int, imports: Sequence[str] = ()) -> Iterator[Proce
 @contextmanager
 def _environment() -> Iterator[None]:
     """Set the environment of processes that are started inside, and restore it at exit."""
-    before = {name: os.environ.get(name) for name in ENVIRONMENT}
-    os.environ.update(ENVIRONMENT)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            os.environ.pop(name)
-            os.environ.update({} if value is None else {name: value})
+    with _setting:
+        before = {name: os.environ.get(name) for name in ENVIRONMENT}
+        os.environ.update(ENVIRONMENT)
+        try:
+            yield
+        finally:
+            for name, value in before.items():
+                os.environ.pop(name)
+                os.environ.update({} if value is None else {name: value})
 
 
 @contextmanager

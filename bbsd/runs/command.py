@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.runs.run import generations, run_key, start
 from bbsd.runs.searching import Course
-from bbsd.runs.storage.census import tables
+from bbsd.runs.storage import census
 from bbsd.runs.storage.records import Journal
 from bbsd.runs.storage.state import RunState, Searching, restored_run, run_arrays
 from bbsd.solver.search import RACE_SHARE
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
+    from bbsd.runs.origin import Origin
     from bbsd.runs.storage.census import Table
+    from bbsd.runs.storage.checkpoint import Arrays
     from bbsd.runs.storage.folder import Folder
     from bbsd.runs.storage.identity import Identity
     from bbsd.runs.storage.records import Records
@@ -43,6 +45,8 @@ class Command:
     """The budgets of each run, one after another; none for the paper's loop, which has generations."""
     seconds: float | None = None
     """The time of each run, at the end of the search's part of which its rounds end."""
+    origin: Origin | None = None
+    """What the command is made of, so that a worker can make it too."""
 
     def with_threads(self, jobs: int) -> Command:
         """Return the same command with this number of threads in each run."""
@@ -54,48 +58,65 @@ class Command:
 
     def reached(self, run: int) -> RunState | None:
         """Return how far a run is, or None if it has not begun. Raises FolderError for damaged files."""
-        read = partial(restored_run, fresh=self._fresh(run), problem=self.problem)
-        return self.records(run).load(self.who, read)
+        return self.records(run).load(self.who, partial(self.restored, run))
+
+    def restored(self, run: int, arrays: Arrays) -> RunState:
+        """Return a run of which these are the arrays. Raises CheckpointError where they cannot be."""
+        return restored_run(arrays, self.fresh(run), self.problem)
 
     def answer(self, run: int) -> Architecture | None:
         """Return the answer of a run, or None if it is not complete. Raises FolderError for damaged files."""
         reached = self.reached(run)
-        return reached.answer if reached is not None and self._is_complete(reached) else None
+        return reached.answer if reached is not None and self.is_complete(reached) else None
 
     def complete(self, run: int, listener: Listener | None = None) -> Architecture:
         """Start or resume a run and return its answer; each line is written before it is reported."""
-        reached = self.reached(run) or self._fresh(run)
+        reached = self.reached(run) or self.fresh(run)
+        deadline = None if self.seconds_of_search is None else time.monotonic() + self.seconds_of_search
         with Journal(self.records(run), self.who) as journal:
-            for reached, line in self._steps(reached):  # noqa: B020
-                journal.add(
-                    partial(run_arrays, reached), line, self._tables(reached, line, journal.lines + 1)
-                )
+            for reached, line in self.steps(reached, deadline):  # noqa: B020
+                journal.add(partial(run_arrays, reached), line, self.tables(reached, line, journal.lines + 1))
                 if listener is not None and line is not None:
                     listener(line)
         if reached.answer is None:
             raise RuntimeError("a run ended without an answer")
         return reached.answer
 
-    def _tables(self, reached: RunState, line: dict[str, Any] | None, number: int) -> Iterator[Table]:
+    def tables(self, reached: RunState, line: dict[str, Any] | None, number: int) -> Iterator[Table]:
         """Return what a step adds to the run's tables, given the number of its line of metrics."""
-        return iter(()) if line is None else tables(reached, line.get("episodes", 0), self.problem, number)
+        return (
+            iter(())
+            if line is None
+            else census.tables(reached, line.get("episodes", 0), self.problem, number)
+        )
 
     def _course(self, run: int) -> Course:
         return Course(self.problem, self.settings, run_key(self.seed, run), run)
 
-    def _fresh(self, run: int) -> RunState:
+    def fresh(self, run: int) -> RunState:
         """Return a run before its beginning."""
         if self.settings.method == "paper":
             return start(self.problem, self.settings, self.seed, run)
         return self._course(run).start(self.budgets[0])
 
-    def _steps(self, reached: RunState) -> Iterator[tuple[RunState, dict[str, Any] | None]]:
+    @property
+    def seconds_of_search(self) -> float | None:
+        """The time of a run's rounds, where a run has a time."""
+        return None if self.seconds is None else self.seconds * (1 - RACE_SHARE)
+
+    def steps(
+        self, reached: RunState, deadline: float | None = None
+    ) -> Iterator[tuple[RunState, dict[str, Any] | None]]:
+        """Continue a run from the state it has reached; yield its state after every step, and its line of metrics.
+
+        Rounds end at the deadline, on the monotonic clock, where there is one.
+        """
         if self.settings.method == "paper":
             return generations(reached, self.problem, self.settings, self.seed)
-        deadline = None if self.seconds is None else time.monotonic() + self.seconds * (1 - RACE_SHARE)
         return self._course(reached.run).steps(reached, self.budgets, deadline)
 
-    def _is_complete(self, reached: RunState) -> bool:
+    def is_complete(self, reached: RunState) -> bool:
+        """Return whether a run is at its end."""
         if isinstance(reached.state, Searching):
             return reached.state.finished >= len(self.budgets)
         return reached.answer is not None

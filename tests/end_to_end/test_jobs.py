@@ -127,19 +127,58 @@ def test_workers_do_not_outlive_a_parent_that_is_killed(long, tmp_path):
     assert files(tmp_path / "run") == long
 
 
+class Killer:
+    """Kills workers of a session, each of them once."""
+
+    def __init__(self, session):
+        self.session, self.killed = session, set()
+
+    def kill(self):
+        """Kill one that is there now, or comes soon."""
+        wait_until(self._one_is_killed)
+
+    def _one_is_killed(self):
+        for number, command in members(self.session).items():
+            if "popen_loky" in command and number not in self.killed:
+                self.killed.add(number)
+                os.kill(number, signal.SIGKILL)
+                return True
+        return False
+
+
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks /proc who is there")
-def test_a_worker_that_is_killed_is_reported_and_the_design_resumed(long, tmp_path):
+def test_a_worker_that_is_killed_twice_costs_nothing_but_time(long, tmp_path):
     running = start(SPEC, *LONG, "--jobs", 2, "--out", "run", "-q", cwd=tmp_path)
     wait_until(both_run(tmp_path / "run"))
-    [worker] = [number for number, command in members(running.pid).items() if "popen_loky" in command]
-    os.kill(worker, signal.SIGKILL)
+    killer = Killer(running.pid)
+    killer.kill()
+    killer.kill()
+    out, err = running.communicate()
+    assert (running.returncode, err) == (0, "")
+    assert "run/architecture.yaml, designed in" in out
+    assert files(tmp_path / "run") == long
+    wait_until(lambda: not members(running.pid))
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks /proc who is there")
+def test_a_run_that_loses_four_workers_is_reported_the_others_completed_and_the_design_resumed(
+    long, tmp_path
+):
+    running = start(SPEC, *LONG, "--jobs", 2, "--out", "run", "-q", cwd=tmp_path)
+    wait_until(both_run(tmp_path / "run"))
+    killer = Killer(running.pid)
+    for _ in range(4):
+        killer.kill()
     out, err = running.communicate()
     assert (running.returncode, out) == (2, "")
     told, advice = err.splitlines()
-    assert told.startswith("bbsd: a process that did one of the runs was killed, maybe by the system")
-    assert told.endswith("all finished generations are kept in run")
-    assert advice.strip() == "continue with --resume; fewer --jobs need less memory"
+    assert told.startswith("bbsd: 4 processes that did run 2 were killed, one after the other, maybe by the")
+    assert told.endswith("the other runs were completed, and all finished generations are kept in run")
+    assert advice.strip().startswith("continue with --resume; fewer --jobs need less memory")
     wait_until(lambda: not members(running.pid))
+    lines = [len((tmp_path / f"run/run-{run}/metrics.jsonl").read_text().splitlines()) for run in (1, 2, 3)]
+    assert (lines[0], lines[2]) == (80, 80)
+    assert lines[1] < 80
     assert ended(SPEC, *LONG, "--out", "run", "-q", "--resume", cwd=tmp_path)[0] == 0
     assert files(tmp_path / "run") == long
 

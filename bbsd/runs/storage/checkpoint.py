@@ -55,17 +55,26 @@ def load(path: Path, who: Identity) -> Arrays:
         content = path.read_bytes()
     except OSError as error:
         raise CheckpointError(f"{path} cannot be read: {error.strerror}") from None
+    return unpacked(content, who, str(path))
+
+
+def unpacked(content: bytes, who: Identity, name: str) -> Arrays:
+    """Return the arrays of a checkpoint file's content; the name is that of the file, for messages.
+
+    Raises:
+        CheckpointError: the content is damaged, or of another run: the message names what differs.
+    """
     digest, content = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
     if sha256(content).digest() != digest:
-        raise CheckpointError(f"{path} is damaged: its digest does not match")
+        raise CheckpointError(f"{name} is damaged: its digest does not match")
     try:
         arrays = _arrays(content)
         theirs = json.loads(arrays.pop(IDENTITY).astype(np.uint8).tobytes())
         different = who.differences(theirs)
     except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError, AttributeError) as error:
-        raise CheckpointError(f"{path} cannot be read: {error}") from None
+        raise CheckpointError(f"{name} cannot be read: {error}") from None
     if different:
-        raise CheckpointError(f"{path} is of another run: different are {' and '.join(different)}")
+        raise CheckpointError(f"{name} is of another run: different are {' and '.join(different)}")
     return arrays
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
@@ -18,7 +18,7 @@ from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.census import TABLES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
     from types import TracebackType
     from typing import Self, TypeVar
@@ -139,33 +139,49 @@ def _position_keys(name: str) -> tuple[str, str]:
 
 
 class _Growing:
-    """A file to which lines are added, and the digest of its content."""
+    """A file to which lines are added, and the digest of its content.
+
+    It is open only while something is written: a thousand runs may go on at the same time.
+    """
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        with errors_name(path):
-            self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | NO_FOLLOW, 0o666)
-        content = path.read_bytes()
+        with self._open():
+            content = path.read_bytes()
         self.size, self.lines, self._digest = len(content), content.count(b"\n"), sha256(content)
+        self._synced = True
 
     def add(self, text: bytes) -> None:
         """Write whole lines."""
-        with errors_name(self.path):
-            write_all(self._file, text)
+        with self._open() as file:
+            write_all(file, text)
         self.size += len(text)
         self.lines += text.count(b"\n")
         self._digest.update(text)
+        self._synced = False
 
     def position(self) -> Arrays:
         """Return how far the file is written, once that has reached the disk."""
-        with errors_name(self.path):
-            os.fsync(self._file)
+        if not self._synced:
+            with self._open() as file:
+                os.fsync(file)
+            self._synced = True
         size, digest = _position_keys(self.path.name)
         return {size: np.array(self.size), digest: np.frombuffer(self._digest.digest(), np.uint8)}
 
-    def close(self) -> None:
-        """Close the file."""
-        os.close(self._file)
+    @contextmanager
+    def _open(self) -> Iterator[int]:
+        with errors_name(self.path):
+            file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | NO_FOLLOW, 0o666)
+            try:
+                yield file
+            finally:
+                os.close(file)
+
+
+def line_text(line: dict[str, Any]) -> bytes:
+    """Return a line of metrics as it is written."""
+    return json.dumps(line).encode() + b"\n"
 
 
 class Journal:
@@ -188,15 +204,11 @@ class Journal:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Save the last state, also where the run was interrupted."""
-        try:
-            if isinstance(error, OSError):
-                with suppress(OSError):
-                    self.save()
-            else:
+        if isinstance(error, OSError):
+            with suppress(OSError):
                 self.save()
-        finally:
-            for file in self._files.values():
-                file.close()
+        else:
+            self.save()
 
     @property
     def lines(self) -> int:
@@ -208,13 +220,25 @@ class Journal:
     ) -> None:
         """Record a step of the run: its line of metrics, rows of tables, and what makes the arrays of its state."""
         if line is not None:
-            self._files[METRICS].add(json.dumps(line).encode() + b"\n")
+            self._files[METRICS].add(line_text(line))
         for table in tables:
             file = self._grow(table.file)
             file.add(table.content(with_columns=file.size == 0))
         self._unsaved = arrays
         if time.monotonic() - self._saved_at >= INTERVAL:
             self.save()
+
+    def add_texts(self, texts: Mapping[str, bytes], arrays: Callable[[], Arrays], interval: float) -> None:
+        """Record several steps as what they add to each file; the state is saved after the interval, in seconds."""
+        for name in sorted(texts):
+            self._grow(name).add(texts[name])
+        self._unsaved = arrays
+        if time.monotonic() - self._saved_at >= interval:
+            self.save()
+
+    def sizes(self) -> dict[str, int]:
+        """Return the sizes of the files that grow."""
+        return {name: file.size for name, file in self._files.items()}
 
     def save(self) -> None:
         """Save the last state, after metrics and tables have reached the disk; nothing where it is saved already."""

@@ -3,7 +3,8 @@ import pytest
 from bbsd.compiler import compile_meaning
 from bbsd.language.loading import load
 from bbsd.runs.command import Command
-from bbsd.runs.rivals import all_rivals, each_run, paper_episodes, rival, rival_command
+from bbsd.runs.rival_command import paper_episodes, rival_command
+from bbsd.runs.rivals import all_rivals, each_run, rival
 from bbsd.runs.storage.folder import Folder
 from bbsd.runs.storage.identity import identity
 from bbsd.solver.paper.settings import settings_of
