@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.compiler import Problem, compile_meaning
 from bbsd.environments.opening import opened_again
-from bbsd.environments.table_check import table_again
 from bbsd.language.loading import load
 from bbsd.text import Source
 
@@ -52,7 +51,6 @@ class Origin:
             "environment": None
             if self.opened is None
             else {"recipe": self.opened.recipe.plain(), "identity": self.opened.plain()},
-            "table": None if problem.table is None else problem.table.digest,
         }
 
 
@@ -77,6 +75,6 @@ def remade(plain: Mapping[str, Any]) -> tuple[Loaded, Problem]:
         compiled=plain["compiled"],
         jobs=plain["jobs"],
         stepper=None if opened is None else opened.stepper,
-        table=None if opened is None else table_again(opened, plain["table"]),
+        table=None if opened is None else opened.table,
     )
     return loaded, problem
