@@ -1,7 +1,7 @@
 """Documents whose examples are run: the files they show are written, their edits made, their commands run.
 
-A fence ```` ```yaml NAME ```` or ```` ```python NAME ```` is a file of that name, ```` ```diff NAME ```` an edit of
-one, and ```` ```console ```` holds commands after `$ ` with what they print below.
+A fence ```` ```yaml NAME ````, or ```` ```python NAME ```` or ```` ```c NAME ````, is a file of that name,
+```` ```diff NAME ```` an edit of one, and ```` ```console ```` holds commands after `$ ` with what they print below.
 """
 
 import os
@@ -22,7 +22,7 @@ def replayed(text: str, folder: Path) -> str:
 
 def _fence(fence: re.Match[str], folder: Path) -> str:
     name, body = fence["name"], fence["body"]
-    if fence["kind"] in ("yaml", "python") and name:
+    if fence["kind"] in ("yaml", "python", "c") and name:
         (folder / name).write_text(body, encoding="utf-8")
     elif fence["kind"] == "diff":
         _edit(folder / name, body)
