@@ -77,6 +77,8 @@ class AgentInput:
             number = float(value)
         except (TypeError, ValueError) as error:
             raise BadInput(f"{self.name}: {value!r} is no number") from error
+        except OverflowError as error:
+            raise BadInput(f"{self.name}: a number is given that is beyond binary64") from error
         if self.kind == "whole number" and isfinite(number) and not number.is_integer():
             raise BadInput(f"{self.name}: {value!r} is no whole number")
         return number
@@ -92,12 +94,15 @@ class AgentInput:
         label = str(plain).lower() if isinstance(plain, bool) else str(plain)
         if label in self.cells:
             return self.cells.index(label)
-        if isinstance(plain, int) and not isinstance(self.cells, Numbers) and 0 <= plain < len(self.cells):
+        if isinstance(plain, int) and not isinstance(plain, bool) and self._has_named(plain):
             return plain
         few = ", ".join(self.cells[:FEW]) + (", ..." if len(self.cells) > FEW else "")
         raise BadInput(
             f"{self.name}: {plain!r} is none of its cells{did_you_mean(label, self.cells[:100])}: {few}"
         )
+
+    def _has_named(self, index: int) -> bool:
+        return not isinstance(self.cells, Numbers) and 0 <= index < len(self.cells)
 
 
 def plain_value(value: object) -> object:

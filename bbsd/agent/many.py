@@ -46,8 +46,8 @@ class Many:
     """Many robots side by side, and what each of them keeps."""
 
     def __init__(self, program: Program, start: Sequence[float], key: int, n: int) -> None:
-        module = load_kernel(loop_source(program), "agent", FUNCTIONS, compiled=True)
-        self._many: Callable[..., None] = module.many
+        self._program = program
+        self._many = _compiled(program)
         self._names = names_set(program)
         self._start = np.array(start, np.float64).reshape(-1, 1)
         self._keys_of_lanes = keys(key, 0, n)
@@ -55,6 +55,15 @@ class Many:
         self._kept = np.repeat(self._start, n, axis=1)
         self._steps, self._keys = np.zeros(n, np.int64), np.zeros(n, np.uint64)
         self.reset(np.ones(n, np.bool_))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return all but the compiled loop, which a copy loads again."""
+        return {name: value for name, value in vars(self).items() if name != "_many"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Become a copy."""
+        vars(self).update(state)
+        self._many = _compiled(self._program)
 
     @property
     def n(self) -> int:
@@ -75,6 +84,12 @@ class Many:
         self._steps += 1
         self._many(np.ascontiguousarray(rows), self._kept, self._steps, self._keys, numbers, sets)
         return Acts(numbers, dict(zip(self._names, sets, strict=True)))
+
+
+def _compiled(program: Program) -> Callable[..., None]:
+    """Return the loop over robots."""
+    many: Callable[..., None] = load_kernel(loop_source(program), "agent", FUNCTIONS, compiled=True).many
+    return many
 
 
 def names_set(program: Program) -> list[str]:

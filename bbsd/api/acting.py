@@ -100,13 +100,25 @@ class Agent:
         self._known = {*environment.world, *environment.state, *environment.sensors}
         if environment.outside is not None:
             self._known |= {*environment.outside.names}
-        self._functions = plain_functions(self._program, self._known, self._not_finite)
-        self._run = self._functions["run"]
+        self._make_functions()
         self._refuses, self._seed_key = not_finite == "refuse", fold(seed_key(seed), name_word("agent"))
         self._many: Many | None = None
         self.not_finite = 0
         self.episode = -1
         self.reset()
+
+    def _make_functions(self) -> None:
+        self._functions = plain_functions(self._program, self._known, self._not_finite)
+        self._run = self._functions["run"]
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return all but the functions, which a copy in this or another process makes anew."""
+        return {name: value for name, value in vars(self).items() if name not in ("_functions", "_run")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Become a copy, which goes on from where the other one is."""
+        vars(self).update(state)
+        self._make_functions()
 
     @property
     def name(self) -> str:

@@ -1,5 +1,7 @@
 """Agents: that they do what their robots do in episodes, and what they say to a program that uses them wrongly."""
 
+import copy
+import pickle
 import subprocess
 import sys
 
@@ -203,7 +205,9 @@ def test_memory_is_kept_and_forgotten():
             {"place": "low"},
             "place: 'low' is none of its cells; did you mean \"lowest\".: lowest, highest, middle",
         ),
+        ({"height": 10**400}, "height: a number is given that is beyond binary64"),
         ({"place": 3}, "place: 3 is none of its cells"),
+        ({"place": True}, "place: True is none of its cells"),
         ({"place": ["lowest"]}, "place: \\['lowest'\\] is none of its cells"),
     ],
 )
@@ -302,6 +306,29 @@ def test_a_design_with_holes_or_another_robot_is_refused():
         Agent(SPECS / "object_lifting.yaml")
     with pytest.raises(BadInput, match="there is no robot 3: the design is for 3"):
         Agent(LIFTING, robot=3)
+
+
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda agent: pickle.loads(pickle.dumps(agent))])
+def test_a_copy_goes_on_from_where_the_agent_is(copied):
+    agent = Agent(SPECS / "mobile_robot_hand.yaml")
+    given_values = {"whim": 0.5, "sonar": [2.0] * 8, "light": [0.0] * 4}
+    agent.act(given_values)
+    other = copied(agent)
+    assert [other.act(given_values), other.memory, other.why] == [
+        agent.act(given_values),
+        agent.memory,
+        agent.why,
+    ]
+    other.act({**given_values, "sonar": [0.1] * 8})
+    assert (other.step, agent.step) == (3, 2)
+
+
+def test_a_copy_of_many_goes_on_from_where_they_are():
+    agent = Agent(LIFTING)
+    agent.act_many(SEEN, n=3)
+    other = pickle.loads(pickle.dumps(agent))
+    for each in (agent, other):
+        assert each.act_many(SEEN, n=3).sets["speed"].tolist() == [2.0, 2.0, 2.0]
 
 
 def test_a_team_is_one_agent_for_each_robot():
