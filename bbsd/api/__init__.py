@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from bbsd.api.tidying import tidy
     from bbsd.api.tracing import trace
     from bbsd.api.watching import watch
+    from bbsd.api.worlds import env
 
 HOMES = {
     "bbsd.api.acting": ("Agent",),
@@ -63,6 +64,7 @@ HOMES = {
     "bbsd.api.watching": ("watch",),
     "bbsd.api.tidying": ("tidy",),
     "bbsd.api.tracing": ("trace",),
+    "bbsd.api.worlds": ("env",),
 }
 """Where each name is from."""
 
@@ -85,6 +87,7 @@ __all__ = [
     "compare",
     "compile",
     "design",
+    "env",
     "evaluate",
     "explain",
     "export",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from bbsd.compiler.stepped import Phase
     from bbsd.expression.graph import Node
     from bbsd.language.meaning import Meaning
 
@@ -93,26 +95,32 @@ class World:
         """
         self._between.chosen[:, lanes] = choices
         self.steps[lanes] += 1
-        for step in np.unique(self.steps[lanes]):
-            self._run(("outcome", "observe", "finish"), int(step), lanes[self.steps[lanes] == step])
+        steps = self.steps[lanes]
+        for step in set(steps.tolist()):
+            self._run(("outcome", "observe", "finish"), step, lanes[steps == step])
 
     def _run(self, phases: Sequence[str], step: int, lanes: Integers) -> None:
         """Do phases in some lanes. Functions do them in all: what others held is put back."""
-        written = (
-            self._numbers.reshape(-1, self.n_lanes),
-            self.earned,
-            self.observed,
-            self.returns,
-            self.living,
-        )
+        if len(lanes) == self.n_lanes:
+            self._run_all(phases, step)
+            return
+        numbers = self._numbers.reshape(-1, self.n_lanes)
+        written = (numbers, self.earned, self.observed, self.returns, self.living)
         others = np.setdiff1d(np.arange(self.n_lanes), lanes)
-        before = [array[..., others] for array in written] if others.size else []
-        arguments = (self._numbers, self._keys, self._constants, self.returns, self.earned, self.observed)
-        with np.errstate(all="ignore"):
-            for phase in phases:
-                getattr(self._module, _name(phase))(0, step, *arguments, *self._between)
-        for array, values in zip(written, before, strict=False):
+        before = [array[..., others] for array in written]
+        self._run_all(phases, step)
+        for array, values in zip(written, before, strict=True):
             array[..., others] = values
+
+    def _run_all(self, phases: Sequence[str], step: int) -> None:
+        arguments = (self._numbers, self._keys, self._constants, self.returns, self.earned, self.observed)
+        with nullcontext() if self._compiled else np.errstate(all="ignore"):
+            for phase in phases:
+                self._functions[phase](0, step, *arguments, *self._between)
+
+    @cached_property
+    def _functions(self) -> dict[str, Phase]:
+        return {phase: getattr(self._module, _name(phase)) for phase in WORLD_PHASES}
 
     @cached_property
     def _module(self) -> Any:  # noqa: ANN401 - a generated module
