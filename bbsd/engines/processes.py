@@ -72,7 +72,7 @@ class Processes:
             except BrokenExecutor:
                 place.executor.shutdown(wait=False)
                 place.executor = self._new_executor()
-                with _environment(), _no_interrupts():
+                with workers_environment(), no_interrupts():
                     future = place.executor.submit(function, *arguments)
             place.waiting += 1
         future.add_done_callback(lambda _future: self._count_down(place))
@@ -80,7 +80,7 @@ class Processes:
 
     def start(self) -> None:
         """Start them all, without waiting until they are there."""
-        with _environment(), _no_interrupts():
+        with workers_environment(), no_interrupts():
             for place in self._places:
                 place.executor.submit(_do_nothing)
 
@@ -104,7 +104,7 @@ class Processes:
     def _new_executor(self) -> Any:  # noqa: ANN401 - loky has no types
         from loky import ProcessPoolExecutor
 
-        with _environment():  # loky's tracker is started with the first executor
+        with workers_environment():  # loky's tracker is started with the first executor
             return ProcessPoolExecutor(1, initializer=_prepare_worker, initargs=(self._reader, self._imports))
 
     def _count_down(self, place: _Place) -> None:
@@ -144,7 +144,7 @@ def waiting_processes(count: int, imports: Sequence[str] = ()) -> Iterator[Proce
 
 
 @contextmanager
-def _environment() -> Iterator[None]:
+def workers_environment() -> Iterator[None]:
     """Set the environment of processes that are started inside, and restore it at exit."""
     with _setting:
         before = {name: os.environ.get(name) for name in ENVIRONMENT}
@@ -158,7 +158,7 @@ def _environment() -> Iterator[None]:
 
 
 @contextmanager
-def _no_interrupts() -> Iterator[None]:
+def no_interrupts() -> Iterator[None]:
     """Hide Ctrl-C from processes that are started inside; this one gets it at exit."""
     if os.name != "posix":
         yield

@@ -1,0 +1,205 @@
+"""The engine `dask`: workers of a Dask cluster, on any number of machines."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import threading
+import time
+from asyncio import CancelledError as AsyncCancelled
+from concurrent.futures import CancelledError, Future
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING, Any
+
+from bbsd.engines.engine import WorkerLost
+from bbsd.engines.processes import no_interrupts, workers_environment
+from bbsd.engines.units import Result, do
+from bbsd.errors import UsageError, escape
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.engines.units import Unit
+
+LOOK = 1.0
+"""Seconds between two questions to the scheduler for its workers."""
+CONNECTING = 10.0
+"""Seconds in which a scheduler has to answer."""
+LARGE = "100 GiB"
+"""The size of a unit from which on Dask would warn of it: a state is as large as it is."""
+SETTINGS = {
+    "distributed.admin.large-graph-warning-threshold": LARGE,
+    "distributed.comm.timeouts.connect": f"{CONNECTING}s",
+}
+
+
+class NoDask(UsageError):
+    """Dask is wanted and not installed."""
+
+    advice = "install it: pip install 'bbsd[dask]'; or leave out --engine dask"
+
+    def __init__(self) -> None:
+        super().__init__("the engine dask needs the package distributed, which is not installed")
+
+
+class NoScheduler(UsageError):
+    """A scheduler that does not answer, or answers no more."""
+
+    advice = "see whether it runs and can be reached from here; what was done can be continued with --resume"
+
+
+class NoBbsd(UsageError):
+    """Workers that cannot import what a unit needs."""
+
+    advice = "install the same bbsd, with the same extras, where the scheduler and the workers run"
+
+
+class DaskEngine:
+    """Workers of a Dask cluster that do units; each is to have one thread."""
+
+    shares_machine = False
+
+    def __init__(self, client: Any, address: str) -> None:  # noqa: ANN401 - heavy
+        self._client, self._address = client, address
+        self._workers, self._looked = 0, -LOOK
+        self._going: dict[Future[Result], Any] = {}
+        self._lock = threading.RLock()  # a signal handler may run in the middle of it
+        self._stopped = False
+
+    def capacity(self) -> int:
+        """Return the number of workers, which come and go."""
+        if time.monotonic() - self._looked >= LOOK:
+            try:
+                self._workers = self._client.scheduler_info(n_workers=0)["n_workers"]
+            except (OSError, TimeoutError, RuntimeError) as error:
+                raise self._lost() from error
+            self._looked = time.monotonic()
+        return self._workers
+
+    def submit(self, unit: Unit) -> Future[Result]:
+        """Let a worker do a unit; Dask itself tries again on another one where a worker is lost."""
+        result: Future[Result] = Future()
+        with self._lock:
+            if self._stopped:
+                result.set_exception(CancelledError())
+                return result
+            going = self._client.submit(do, unit.to_bytes(), pure=False)
+            self._going[result] = going
+        going.add_done_callback(lambda done: self._pass_on(done, result))
+        return result
+
+    def prepare(self, unit: Unit) -> None:
+        """Do nothing: workers get ready with their first unit."""
+
+    def dismiss(self) -> None:
+        """Do nothing: others may need the workers."""
+
+    def stop(self) -> None:
+        """Take back what was submitted; what a worker has begun it ends soon, since a unit takes a few seconds."""
+        with self._lock:
+            if self._stopped:
+                return
+            self._stopped = True
+            going = [*self._going.values()]
+        threading.Thread(target=self._client.cancel, args=(going,), daemon=True).start()
+        for result in [*self._going]:
+            self._settle(result, CancelledError())
+
+    def _pass_on(self, done: Any, result: Future[Result]) -> None:  # noqa: ANN401 - heavy
+        try:
+            outcome: Result | BaseException = Result.from_bytes(done.result())
+        except BaseException as error:  # noqa: BLE001 - raised where the result is wanted
+            outcome = self._meant(error)
+        self._settle(result, outcome)
+
+    def _settle(self, result: Future[Result], outcome: Result | BaseException) -> None:
+        """Give a unit its outcome, once."""
+        with self._lock:
+            if self._going.pop(result, None) is None:
+                return
+        if isinstance(outcome, BaseException):
+            result.set_exception(outcome)
+        else:
+            result.set_result(outcome)
+
+    def _meant(self, error: BaseException) -> BaseException:
+        """Return what an error of Dask means for bbsd."""
+        from distributed import KilledWorker
+
+        if isinstance(error, KilledWorker):
+            return WorkerLost(error.allowed_failures + 1)
+        if isinstance(error, CancelledError | AsyncCancelled):
+            return CancelledError() if self._stopped else self._lost()
+        missing = _missing(error)
+        return error if missing is None else NoBbsd(f"a worker of {self._address} cannot import {missing}")
+
+    def _lost(self) -> NoScheduler:
+        return NoScheduler(f"the scheduler at {self._address} does not answer any more")
+
+
+def _missing(error: BaseException) -> str | None:
+    """Return the module that a worker, or the scheduler, could not import, and None where that is not what is wrong."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, ModuleNotFoundError | AttributeError) and "bbsd" in str(cause):
+            return escape(getattr(cause, "name", None) or str(cause))
+        cause = cause.__cause__
+    if isinstance(error, RuntimeError) and "deserializ" in str(error):
+        return "what was sent"
+    return None
+
+
+@contextmanager
+def dask_engine(scheduler: str | None, count: int) -> Iterator[DaskEngine]:
+    """Connect with a scheduler, or start so many workers on this machine where none is named; let go of it at exit.
+
+    Raises NoDask, NoScheduler.
+    """
+    try:
+        import dask
+        from distributed import Client
+    except ImportError:
+        raise NoDask from None
+    connect: Any = Client  # distributed has no types
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set(SETTINGS))
+        address = scheduler or stack.enter_context(_local_cluster(count)).scheduler_address
+        try:
+            client = stack.enter_context(
+                connect(address, timeout=CONNECTING, set_as_default=False, name="bbsd")
+            )
+        except (OSError, TimeoutError, ValueError) as error:
+            raise NoScheduler(f"no scheduler answers at {escape(address)}: {escape(str(error))}") from None
+        engine = DaskEngine(client, escape(address))
+        try:
+            yield engine
+        finally:
+            engine.stop()
+
+
+@contextmanager
+def _local_cluster(count: int) -> Iterator[Any]:
+    """Start so many workers with one thread each, which only this machine can reach."""
+    from distributed import LocalCluster
+
+    start: Any = LocalCluster  # distributed has no types
+    with workers_environment(), no_interrupts():
+        cluster = start(
+            n_workers=count,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address=None,
+            memory_limit=None,
+            silence_logs=logging.CRITICAL,
+        )
+    with cluster:
+        try:
+            yield cluster
+        finally:
+            for nanny in cluster.workers.values():
+                nanny.auto_restart = False
+                if nanny.pid is not None:
+                    os.kill(
+                        nanny.pid, signal.SIGKILL
+                    )  # closing would wait for a unit that nobody wants any more
