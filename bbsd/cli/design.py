@@ -3,7 +3,6 @@
 import shlex
 import sys
 import time
-from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -24,19 +23,16 @@ from bbsd.cli.options import (
 )
 from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
+from bbsd.cli.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from contextlib import AbstractContextManager
 
     from bbsd.api import Designed, Interrupted
-    from bbsd.engines.engine import Engine
+    from bbsd.cli.access import Stepping
     from bbsd.language.loading import Loaded
-    from bbsd.runs.price import Price
 
-NEEDED = ("bbsd.runs.portions",)
-"""As in `bbsd.runs.workers`, which takes long to import."""
 LEAST_BUDGET = 5_000
 """As in `bbsd.language.design`, which takes long to import."""
 INTERRUPTED = 130
@@ -92,6 +88,8 @@ def design(
             help="Parallel jobs: processes for several runs, threads within a run; affects only the speed.",
         ),
     ] = 1,
+    engine: AnyEngine = EngineName.PROCESSES,
+    scheduler: Scheduler = None,
     overrides: Overrides = None,
     plot: Annotated[
         bool,
@@ -155,6 +153,7 @@ def design(
     from bbsd.text import Source
 
     opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
+    require_engine(engine, scheduler)
     require_figures(plot, plot_to, plot_beside, seed)
     _make_folder(tensorboard)
     set_by_budget, within = read_budget(budget)
@@ -170,23 +169,17 @@ def design(
     loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides)
     if not quiet:
         _say_which_method(loaded)
-    with _workers(0 if dry_run or resume or seeds else min(runs, jobs) - 1) as engine:
+    processes = 0 if resume or seeds else min(runs, jobs) - 1
+    if dry_run:
+        starting = time.process_time() + (DRAWING if plot or plot_to else 0.0)
+        _show_price(
+            loaded, opening, seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting, as_json=as_json
+        )
+        return
+    with chosen_engine(engine, scheduler, jobs=jobs, processes=processes) as workers:
         from bbsd import api
         from bbsd.report.progress import generation_listener
 
-        if dry_run:
-            starting = time.process_time() + (DRAWING if plot or plot_to else 0.0)
-            price = api.price(
-                loaded,
-                seed=seed,
-                runs=runs,
-                lanes=lanes,
-                jobs=jobs,
-                starting=starting,
-                **opening,
-            )
-            _show_price(price, as_json=as_json)
-            return
         console = error_console()
 
         def leave(stopped: api.Interrupted) -> None:
@@ -211,7 +204,7 @@ def design(
                     rivals=_rivals(rival, loaded, every=compare_methods),
                     progress=listener,
                     overdue=leave,
-                    engine=engine,
+                    engine=workers,
                     **opening,
                 )
 
@@ -230,9 +223,7 @@ def design(
         except api.Interrupted as stopped:
             _say_how_to_continue(stopped, out=out if seeds is None else base)
             raise typer.Exit(INTERRUPTED) from None
-    if within is not None:
-        say("a budget by time cannot be reproduced: the same command may give another design")
-    _show(designed, seed, runs, as_json=as_json)
+    _show(designed, seed, runs, by_time=within is not None, as_json=as_json)
     figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
     draw_search(designed, loaded.spec.name, seed, plot_beside, figures, opening)
     _write_events(designed, tensorboard)
@@ -257,17 +248,21 @@ def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ..
     return others if every else () if name is None else (name,)
 
 
-def _workers(count: int) -> "AbstractContextManager[Engine | None]":
-    if count == 0:
-        return nullcontext()
-    from bbsd.engines.local import processes_engine
-
-    return processes_engine(count, NEEDED)
-
-
-def _show_price(price: "Price", *, as_json: bool) -> None:
+def _show_price(
+    loaded: "Loaded",
+    opening: "Stepping",
+    seed: int,
+    *,
+    runs: int,
+    lanes: int,
+    jobs: int,
+    starting: float,
+    as_json: bool,
+) -> None:
+    from bbsd import api
     from bbsd.report.price import price_plain, price_text
 
+    price = api.price(loaded, seed=seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting, **opening)
     show(json_text(price_plain(price)) if as_json else price_text(price))
 
 
@@ -320,7 +315,9 @@ def _write_events(designed: "Designed", folder: Path | None) -> None:
     EventFiles(folder).update(look(designed.folder))
 
 
-def _show(designed: "Designed", seed: int, runs: int, *, as_json: bool) -> None:
+def _show(designed: "Designed", seed: int, runs: int, *, by_time: bool, as_json: bool) -> None:
+    if by_time:
+        say("a budget by time cannot be reproduced: the same command may give another design")
     if designed.not_reproducible:
         say(f"not reproducible: {designed.not_reproducible}; the same command may give another design")
     if as_json:

@@ -28,6 +28,7 @@ CONNECTING = 10.0
 """Seconds in which a scheduler has to answer."""
 LARGE = "100 GiB"
 """The size of a unit from which on Dask would warn of it: a state is as large as it is."""
+KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 SETTINGS = {
     "distributed.admin.large-graph-warning-threshold": LARGE,
     "distributed.comm.timeouts.connect": f"{CONNECTING}s",
