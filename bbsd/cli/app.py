@@ -15,6 +15,7 @@ from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.export import export
 from bbsd.cli.fmt import fmt
+from bbsd.cli.interrupts import stoppable
 from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
 from bbsd.cli.output import say
@@ -42,24 +43,24 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command()(new)
+app.command()(stoppable(new))
 app.command()(design)
-app.command()(evaluate)
-app.command()(spaces)
-app.command()(explain)
-app.command()(why)
-app.command()(tidy)
-app.command()(worth)
-app.command()(compare)
-app.command()(report)
+app.command()(stoppable(evaluate))
+app.command()(stoppable(spaces))
+app.command()(stoppable(explain))
+app.command()(stoppable(why))
+app.command()(stoppable(tidy))
+app.command()(stoppable(worth))
+app.command()(stoppable(compare))
+app.command()(stoppable(report))
 app.command()(watch)
-app.command()(export)
-app.command()(check)
-app.command()(fmt)
-app.command()(config)
-app.command("compile")(compile_)
-app.command()(schema)
-app.command()(doctor)
+app.command()(stoppable(export))
+app.command()(stoppable(check))
+app.command()(stoppable(fmt))
+app.command()(stoppable(config))
+app.command("compile")(stoppable(compile_))
+app.command()(stoppable(schema))
+app.command()(stoppable(doctor))
 
 
 def _show_version(wanted: bool) -> None:

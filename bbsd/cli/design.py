@@ -10,6 +10,7 @@ import typer
 
 from bbsd.cli.access import stepping
 from bbsd.cli.budget import read_budget, read_seeds
+from bbsd.cli.interrupts import INTERRUPTED
 from bbsd.cli.options import (
     AllowImport,
     AsJson,
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 LEAST_BUDGET = 5_000
 """As in `bbsd.language.design`, which takes long to import."""
-INTERRUPTED = 130
 DRAWING = 0.5
 """Approximate seconds to import matplotlib and draw the curves."""
 
@@ -198,7 +198,6 @@ def design(
                     resume=resume,
                     lanes=lanes,
                     jobs=jobs,
-                    overrides=overrides,
                     more=more,
                     within=within,
                     rivals=_rivals(rival, loaded, every=compare_methods),

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.evaluation.finite import require_finite
+from bbsd.stopping import raise_if_stopped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -51,10 +52,14 @@ def detailed_outcomes(
 
 
 def batches_of(agents: Agents, keys: Keys) -> Iterator[tuple[slice, Agents, Keys]]:
-    """Yield the lanes of each batch, agent after agent, with their agents and the keys of their episodes."""
+    """Yield the lanes of each batch, agent after agent, with their agents and the keys of their episodes.
+
+    Raises KeyboardInterrupt where a stop was requested.
+    """
     n_episodes = keys.shape[-1]
     total = len(agents) * n_episodes
     for first in range(0, total, BATCH):
+        raise_if_stopped()
         lanes = np.arange(first, min(first + BATCH, total))
         streams = keys[lanes % n_episodes] if keys.ndim == 1 else keys.ravel()[lanes]
         yield slice(first, first + len(lanes)), agents[lanes // n_episodes], streams

@@ -10,6 +10,7 @@ from __future__ import annotations
 import signal
 import socket
 import threading
+import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -30,7 +31,7 @@ def interrupts_request_stop(overdue: Callable[[], object] | None = None) -> Iter
 
     Only the main thread can do so; in other threads signals stay as they are. They also stay in a process that ignores
     interrupts: a shell starts background jobs that way, and Ctrl-C is meant for another process. If the work has not
-    stopped within the grace period, `overdue` is called in another thread.
+    stopped within the grace period, or at a second interrupt, `overdue` is called in another thread.
     """
     with stop_request_of_context() as request:
         is_main = threading.current_thread() is threading.main_thread()
@@ -60,26 +61,40 @@ def _handle_interrupts(request: StopRequest) -> Iterator[None]:
 def _watch_in_thread(request: StopRequest, overdue: Callable[[], object] | None) -> Iterator[None]:
     reader, writer = socket.socketpair()
     writer.setblocking(False)
-    over = threading.Event()
-    thread = threading.Thread(target=_watch, args=(reader, request, over, overdue), daemon=True)
+    thread = threading.Thread(target=_watch, args=(reader, request, overdue), daemon=True)
     thread.start()
     before = signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
     try:
         yield
     finally:
         signal.set_wakeup_fd(before)
-        over.set()
         writer.close()
         thread.join()
         reader.close()
 
 
-def _watch(
-    reader: socket.socket, request: StopRequest, over: threading.Event, overdue: Callable[[], object] | None
-) -> None:
+def _watch(reader: socket.socket, request: StopRequest, overdue: Callable[[], object] | None) -> None:
     """Make the request as soon as the system has recorded the signal, whatever the main thread is doing."""
+    interrupts = 0
     while numbers := reader.recv(64):
-        if signal.SIGINT in numbers:
+        interrupts += numbers.count(signal.SIGINT)
+        if interrupts:
             request.make()
-            if not over.wait(GRACE) and overdue is not None:
-                overdue()
+            break
+    if interrupts and overdue is not None and _again_or_late(reader, interrupts):
+        overdue()
+
+
+def _again_or_late(reader: socket.socket, interrupts: int) -> bool:
+    """Wait for a second interrupt, or for the grace period; return whether the work has not ended by then."""
+    end = time.monotonic() + GRACE
+    while interrupts < 2:
+        reader.settimeout(max(end - time.monotonic(), 0.001))
+        try:
+            numbers = reader.recv(64)
+        except TimeoutError:
+            return True
+        if not numbers:
+            return False
+        interrupts += numbers.count(signal.SIGINT)
+    return True

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bbsd.cli.interrupts import INTERRUPTED
 from bbsd.cli.options import spec_files
 from bbsd.cli.output import has_blocks, output_console, say, show
 
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
     from rich.live import Live
 
     from bbsd.runs.storage.watching import Watched
-
-INTERRUPTED = 130
 
 
 def watch(
