@@ -9,6 +9,7 @@ from pathlib import Path
 
 from benchmarks import processes
 from benchmarks.parts import (
+    agents,
     growth,
     large_designs,
     lifting_rollout,
@@ -32,6 +33,7 @@ IN_ORDER = (
     whole_processes,
     parallel,
     prices,
+    agents,
 )
 PARTS = {part.__name__.rpartition(".")[2]: part for part in IN_ORDER}
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"

@@ -225,7 +225,7 @@ def _array(each: AgentInput, value: Any) -> Floats:  # noqa: ANN401 - whatever w
     if each.kind in ("number", "whole number") and array.dtype.kind in "fiu":
         numbers = array.astype(np.float64)
         if each.kind == "whole number" and (wrong := numbers[np.isfinite(numbers) & (numbers % 1 != 0)]).size:
-            raise BadInput(f"{each.name}: {wrong[0]!r} is no whole number")
+            raise BadInput(f"{each.name}: {float(wrong[0])!r} is no whole number")
         return numbers
     if each.kind == "truth" and array.dtype == np.bool_:
         return array.astype(np.float64)

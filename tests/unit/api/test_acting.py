@@ -120,6 +120,25 @@ def test_many_do_what_one_does(name):
                 assert bits(float(values[lane])) == bits(float(act.sets.get(state, float("nan"))))
 
 
+def test_draws_and_what_was_before_are_of_each_of_many(tmp_path):
+    path = tmp_path / "robot.yaml"
+    path.write_text(ROBOT.format(robots=1))
+    many, one = Agent(path), Agent(path)
+    rng = np.random.default_rng(2)
+    rows = [np.floor(rng.uniform(0, 9, (len(many.inputs), 4))) for _ in range(12)]
+    acts = [many.act_many(dict(zip(many.inputs, each, strict=True))) for each in rows]
+    for lane in range(4):
+        one.reset(key=int(many._many._keys[lane]))
+        for each, done in zip(rows, acts, strict=True):
+            act = one.act(dict(zip(many.inputs, each[:, lane].tolist(), strict=True)))
+            assert done.numbers[lane] == act.number
+            for name, values in done.sets.items():
+                assert bits(float(values[lane])) == bits(float(act.sets.get(name, float("nan"))))
+    assert len({number for done in acts for number in done.numbers.tolist()}) > 2
+    turns = np.array([done.sets["turns"] for done in acts])
+    assert len(np.unique(turns[np.isfinite(turns)])) > 10
+
+
 def test_the_loop_of_many_is_also_plain_python():
     agent = Agent(LIFTING)
     module = load_kernel(loop_source(agent._program), "agent", (), compiled=False)
@@ -156,7 +175,7 @@ def test_lists_of_many_have_the_robots_first():
         ({"whim": [1.0, 2.0]}, "the values are for different numbers of robots: 2, 3"),
         ({"whim": ["a", "b", "c"]}, "whim: 'a' is no number"),
         ({"whim": [1.0, np.nan, 2.0]}, "whim: nan of robot 1 is not finite"),
-        ({"wimm": 1.0}, "there is no 'wimm'; did you mean \"whim\""),
+        ({"whim": 1.5, "wimm": 1.0}, "there is no 'wimm'; did you mean \"whim\""),
     ],
 )
 def test_what_is_wrong_with_many_is_told(wrong, message):
@@ -271,6 +290,19 @@ def test_truths_and_whole_numbers_have_to_be_such(tmp_path):
         agent.act({"count": 1.5, "lit": True})
     with pytest.raises(BadInput, match="lit: 2 is neither true nor false"):
         agent.act({"count": 1, "lit": 2})
+
+
+def test_truths_and_whole_numbers_of_many_have_to_be_such(tmp_path):
+    path = tmp_path / "spec.yaml"
+    path.write_text(KINDS)
+    agent = Agent(path)
+    acts = agent.act_many({"count": [1, 1, 0], "lit": np.array([True, False, True])})
+    assert acts.numbers.tolist() == [1, 0, 0]
+    assert np.isnan(acts.sets["x"]).tolist() == [False, True, True]
+    with pytest.raises(BadInput, match=r"count: 1\.5 is no whole number"):
+        agent.act_many({"count": [1, 1.5, 0], "lit": [True] * 3})
+    with pytest.raises(BadInput, match="lit: 2 is neither true nor false"):
+        agent.act_many({"count": 1, "lit": [1, 2, 0]})
 
 
 def test_numbers_that_are_not_finite_can_be_counted():
