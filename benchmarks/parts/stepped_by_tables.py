@@ -48,9 +48,7 @@ def section(*, quick: bool) -> Section:
         speeds = {way: runs[way].steps / times[way] for way in runs}
         faster = float(np.median(speeds[BY_TABLE] / speeds[LOOP]))
         rows.append([f"`{name}`", *(_speed(speeds[way]) for way in runs), f"{faster:,.0f}"])
-        goals.append(
-            Goal(f"{name} by its table beside a plain loop", faster, least, at_least=True)
-        )
+        goals.append(Goal(f"{name} by its table beside a plain loop", faster, least, at_least=True))
     return Section(
         "Environments with a table of transitions",
         [
