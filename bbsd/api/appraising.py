@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
+from bbsd.api.opening import opened_environment, problem_of
 from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation import evaluation_key
 from bbsd.evaluation.faults import read_faults
 from bbsd.explanation.faults import Degradations, degradations
@@ -16,6 +18,10 @@ from bbsd.explanation.worth import Appraisal, Worth
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from pathlib import Path
+    from typing import Any
+
+    from bbsd.environments.importing.modules import Announce
 
 
 def worth(
@@ -68,6 +74,13 @@ def faults(
     jobs: int = 1,
     overrides: Sequence[str] = (),
     progress: Callable[[int, int], None] | None = None,
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
+    by_table: bool = True,
+    note: Callable[[str], object] | None = None,
 ) -> Degradations:
     """Say what a design earns undisturbed and under each fault alone, all in the episodes of `evaluate`.
 
@@ -82,18 +95,32 @@ def faults(
         jobs: Threads to use; affects only the speed.
         overrides: Values that replace those of the spec.
         progress: Called with the numbers of faults done and of all.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
+        by_table: Step the environment by its table of transitions, if it has one (`P`, as Taxi), and real steps agree
+            with it: the same episodes, without Python, thousands of times faster.
+        note: Called with a sentence on that, if it has one.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         NoSuchFault: a fault is not understood, or of something that the spec does not have.
         ValueError: fewer than two episodes, of which no interval can be told.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     if episodes < 2:
         raise ValueError("faults need two episodes at least")
     loaded = load(spec, seed=seed, overrides=overrides)
     found = read_faults(faults, loaded.meaning)
-    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    opened = opened_environment(
+        loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
+    )
+    problem = problem_of(loaded, opened, lanes=lanes, jobs=jobs)
     design, generation = given_architecture(problem), loaded.spec.design.coevolution.generations
     with located_reward_errors(loaded):
         return degradations(

@@ -317,8 +317,6 @@ def _write_events(designed: "Designed", folder: Path | None) -> None:
 def _show(designed: "Designed", seed: int, runs: int, *, by_time: bool, as_json: bool) -> None:
     if by_time:
         say("a budget by time cannot be reproduced: the same command may give another design")
-    if designed.not_reproducible:
-        say(f"not reproducible: {designed.not_reproducible}; the same command may give another design")
     if as_json:
         show(json_text(design_plain(designed, seed, runs)))
         return

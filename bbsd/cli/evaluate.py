@@ -168,14 +168,15 @@ def evaluate(
     if expect_at_least is not None:
         _require_expectations(loaded)
     require_names(values or (), names_to_show(loaded.spec))
+    opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     if fault:
+        episodes = episodes or 1000
         show_faults(
-            loaded, fault, episodes or 1000, seed, at_least, lanes, jobs, relearn=relearn, as_json=as_json
+            loaded, fault, episodes, seed, at_least, lanes, jobs, opening, relearn=relearn, as_json=as_json
         )
         return
     from bbsd.report.progress import episode_listener
 
-    opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     with episode_listener(error_console()) as listener:
         evaluation = bbsd.evaluate(
             loaded,

@@ -15,10 +15,20 @@ if TYPE_CHECKING:
 
 def warnings_of(designed: Designed) -> list[str]:
     """Return the warnings about a design, one sentence or two each."""
-    warnings = [_selection(designed), disagreement([returns for returns, _ in designed.each])]
+    warnings = [
+        _fickle(designed),
+        _selection(designed),
+        disagreement([returns for returns, _ in designed.each]),
+    ]
     warnings += [_unvisited(designed)]
     warnings += [f"rival {rival.method}: {rival.reason}" for rival in designed.rivals if rival.reason]
     return [warning for warning in warnings if warning]
+
+
+def _fickle(designed: Designed) -> str:
+    """Return why the design cannot be made again, or ""."""
+    reason = designed.not_reproducible
+    return f"not reproducible: {reason}, so the same command may give another design" if reason else ""
 
 
 def _selection(designed: Designed) -> str:

@@ -11,6 +11,7 @@ from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
 
 if TYPE_CHECKING:
+    from bbsd.cli.access import Stepping
     from bbsd.language.loading import Loaded
 
 TOO_LOW = 1
@@ -25,6 +26,7 @@ def show_faults(
     least: float | None,
     lanes: int,
     jobs: int,
+    opening: "Stepping",
     *,
     relearn: bool,
     as_json: bool,
@@ -45,6 +47,7 @@ def show_faults(
             lanes=lanes,
             jobs=jobs,
             progress=listener,
+            **opening,
         )
     if as_json:
         show(json_text(faults_plain(found)))
