@@ -32,7 +32,7 @@ MOST_IN_A_WORD = 65_536
 BYTES_IN_A_LINE = 24
 
 
-class _Writing(NamedTuple):
+class Writing(NamedTuple):
     """A controller with the identifiers of its parts: parameters by dimension, constants of cells, of actions."""
 
     controller: Controller
@@ -50,7 +50,7 @@ class _Writing(NamedTuple):
 
 def write(exported: Exported, options: Options) -> Files:  # noqa: ARG001 - all targets are written alike
     """Return the header's text by its file's name."""
-    writing = _named(exported.controller)
+    writing = named(exported.controller)
     upper = writing.upper
     lines = [
         *_head(writing),
@@ -71,7 +71,7 @@ def write(exported: Exported, options: Options) -> Files:  # noqa: ARG001 - all 
     return {f"{writing.prefix}.h": "\n".join(lines) + "\n"}
 
 
-def _named(controller: Controller) -> _Writing:
+def named(controller: Controller) -> Writing:
     prefix = words_of(controller.name).lower()
     prefix = prefix if prefix and not prefix[0].isdigit() else f"design_{prefix}".rstrip("_")
     parameters, upper = Names(RESERVED), f"{prefix}_".upper()
@@ -82,7 +82,7 @@ def _named(controller: Controller) -> _Writing:
         else ()
         for each in controller.dimensions
     )
-    return _Writing(
+    return Writing(
         controller,
         prefix,
         tuple(
@@ -97,7 +97,7 @@ def _named(controller: Controller) -> _Writing:
     )
 
 
-def _comment(*paragraphs: str, indent: str = "") -> list[str]:
+def comment(*paragraphs: str, indent: str = "") -> list[str]:
     """Return paragraphs as a comment that nothing in them can end."""
     lines = [line for text in paragraphs for line in (wrapped(_safe(text), f"{indent} * ", f"{indent} * "))]
     lines[0] = f"{indent}/*{lines[0][len(indent) + 2 :]}"
@@ -110,14 +110,14 @@ def _safe(text: str) -> str:
     return text.replace("??", "? ?").replace("*/", "* /").replace("/*", "/ *").replace("\\", "/")
 
 
-def _head(writing: _Writing) -> Iterator[str]:
+def _head(writing: Writing) -> Iterator[str]:
     cells = example_cells(writing.controller)
     example = [names[cell] if names else str(cell) for names, cell in zip(writing.cells, cells, strict=True)]
-    first, *rest = _comment(*head_lines(writing.controller))
+    first, *rest = comment(*head_lines(writing.controller))
     yield first
     yield from (line.removesuffix(" */") for line in rest)
     yield " *"
-    (first, *rest) = _comment(
+    (first, *rest) = comment(
         f"Give {writing.prefix}_command() the cell of each input, as a number from 0 or by its name below. It returns "
         f"the action of the highest layer that has one, or {writing.actions[0]}, by which commands stay as they are:"
     )
@@ -131,22 +131,22 @@ def _head(writing: _Writing) -> Iterator[str]:
     yield " * No floating point, no heap, no state: the same cells always give the same action. */"
 
 
-def _cells(writing: _Writing) -> Iterator[str]:
+def _cells(writing: Writing) -> Iterator[str]:
     for dimension, parameter, names in zip(
         writing.controller.dimensions, writing.parameters, writing.cells, strict=True
     ):
         if names:
-            yield from _comment(f"{parameter}: {cells_text(dimension)}")
+            yield from comment(f"{parameter}: {cells_text(dimension)}")
             yield from _enum(f"{writing.prefix}_{parameter}", names, [""] * len(names))
             yield ""
 
 
-def _actions(writing: _Writing) -> Iterator[str]:
+def _actions(writing: Writing) -> Iterator[str]:
     sets = [
         "; ".join(f"{name} = {value}" for name, value in action.sets.items()) or "sets nothing"
         for action in writing.controller.actions
     ]
-    yield from _comment("What is done: a behavior's action, and what it sets in the words of the design.")
+    yield from comment("What is done: a behavior's action, and what it sets in the words of the design.")
     yield from _enum(f"{writing.prefix}_action", writing.actions, ["", *sets])
     yield ""
 
@@ -155,7 +155,7 @@ def _enum(tag: str, names: Sequence[str], remarks: Sequence[str]) -> Iterator[st
     yield f"enum {tag} {{"
     for number, (name, remark) in enumerate(zip(names, remarks, strict=True)):
         if remark:
-            yield from _comment(remark, indent="    ")
+            yield from comment(remark, indent="    ")
         yield f"    {name} = {number}{',' if number < len(names) - 1 else ''}"
     yield "};"
 
@@ -165,11 +165,11 @@ def _has_table(layer: Layer) -> bool:
     return len(set(layer.table)) > 1
 
 
-def _table(writing: _Writing, layer: Layer) -> str:
+def _table(writing: Writing, layer: Layer) -> str:
     return f"{writing.prefix}_layer_{layer.number}"
 
 
-def _tables(writing: _Writing) -> Iterator[str]:
+def _tables(writing: Writing) -> Iterator[str]:
     layers = [layer for layer in writing.controller.layers if _has_table(layer)]
     if not layers:
         return
@@ -184,7 +184,7 @@ def _tables(writing: _Writing) -> Iterator[str]:
         "#endif",
         "",
     )
-    yield from _comment("For each cell of a layer's behavior: 0 is no action, k the behavior's k-th action.")
+    yield from comment("For each cell of a layer's behavior: 0 is no action, k the behavior's k-th action.")
     for layer in layers:
         name, cells = _table(writing, layer), layer.table
         yield f"static const uint8_t {name}[{len(cells)}] {writing.upper}_TABLE = {{"
@@ -195,7 +195,7 @@ def _tables(writing: _Writing) -> Iterator[str]:
     yield ""
 
 
-def _command(writing: _Writing, exported: Exported) -> Iterator[str]:
+def _command(writing: Writing, exported: Exported) -> Iterator[str]:
     controller = writing.controller
     told = [
         f"  {parameter}: {f'enum {writing.prefix}_{parameter}' if names else cells_text(dimension)}"
@@ -204,7 +204,7 @@ def _command(writing: _Writing, exported: Exported) -> Iterator[str]:
         )
     ]
     none = f"; {writing.actions[0]} also where there is no such cell." if told else "."
-    yield from _comment(f"Return the controlling action{none}", *told)
+    yield from comment(f"Return the controlling action{none}", *told)
     yield f"static inline enum {writing.prefix}_action {writing.prefix}_command("
     yield from _parameters(writing)
     yield "{"
@@ -225,7 +225,7 @@ def _command(writing: _Writing, exported: Exported) -> Iterator[str]:
     yield "}"
 
 
-def _parameters(writing: _Writing) -> Iterator[str]:
+def _parameters(writing: Writing) -> Iterator[str]:
     types = ["unsigned" if size <= MOST_IN_A_WORD else "uint32_t" for size in writing.controller.sizes]
     pairs = [f"{kind} {name}" for kind, name in zip(types, writing.parameters, strict=True)]
     yield "    " + (",\n    ".join(pairs) or "void") + ")"
@@ -239,8 +239,8 @@ def _always_acts(controller: Controller) -> bool:
     )
 
 
-def _layer(writing: _Writing, layer: Layer, sentences: Sequence[str]) -> Iterator[str]:
-    yield from _comment(layer_head(layer), *(f"  {each}" for each in sentences), indent="    ")
+def _layer(writing: Writing, layer: Layer, sentences: Sequence[str]) -> Iterator[str]:
+    yield from comment(layer_head(layer), *(f"  {each}" for each in sentences), indent="    ")
     indent = "    "
     if layer.excitement is not None:
         yield f"    if ({writing.parameters[layer.excitement]} == {layer.excited_at}U) {{"
@@ -258,7 +258,7 @@ def _layer(writing: _Writing, layer: Layer, sentences: Sequence[str]) -> Iterato
         yield "    }"
 
 
-def _place(writing: _Writing, layer: Layer) -> str:
+def _place(writing: Writing, layer: Layer) -> str:
     """Return the expression of a layer's place in its table: row-major, by Horner's scheme."""
     first, *rest = layer.axes
     place = writing.parameters[first]

@@ -42,9 +42,14 @@ class Exported:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a target is written: with sensors, excitation and assignments; and what a tree's leaves are."""
+    """How a target is written: with sensors, excitation and assignments; and what a tree's leaves are.
+
+    With `sensing`, values that are `measured` or `remembered` (`bbsd.architecture.needs.needs_of`).
+    """
 
     sensing: bool = False
+    measured: tuple[str, ...] = ()
+    remembered: tuple[str, ...] = ()
     leaves: Literal["script", "custom"] = "script"
 
 

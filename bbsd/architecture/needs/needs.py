@@ -67,6 +67,8 @@ class Needs:
     memory: tuple[str, ...]
     """The state variables that the robot itself keeps."""
     robots: tuple[RobotNeeds, ...]
+    named: Mapping[Slot, Node]
+    """Sensors that are computed, of all robots; and definitions without parameters, if they were asked for."""
 
     @property
     def outputs(self) -> list[Node]:
@@ -93,13 +95,14 @@ def needs_of(
     raw: bool = True,
     measured: Collection[str] = (),
     remembered: Collection[str] = (),
+    definitions: bool = False,
 ) -> Needs:
     """Return what a robot with this design needs.
 
     Sensors that draw, and those `measured`, are given. All others are computed from state and world if `raw`; else
     sensors that look at the world or at other robots are given, too. State that actions set is the robot's memory where
     it starts with a known value and changes only by what the robot knows; so is what is `remembered`, but nothing that
-    is `measured`. All other state is given, unless it never changes.
+    is `measured`. All other state is given, unless it never changes. With `definitions` these are named, too.
 
     Raises:
         NotMeasured, NotRemembered: a name is of nothing that can be measured or remembered.
@@ -113,7 +116,8 @@ def needs_of(
             for leaf in needed([node])
         )
 
-    return _Analysis(meaning, controller, sensors_of(meaning, is_given), measured, remembered).needs()
+    sensors = sensors_of(meaning, is_given, definitions=definitions)
+    return _Analysis(meaning, controller, sensors, measured, remembered).needs()
 
 
 def _is_far(read: Slot, reader: Slot) -> bool:
@@ -158,8 +162,13 @@ class _Analysis:
             told = {each.name for each in given if each.of_team} & set(self.memory)
             if not told:
                 memory = tuple(name for name in self.environment.state if name in self.memory)
-                return Needs(self.sensors.graph, given, memory, robots)
+                named = {slot: self._known(node) for slot, node in self._named()}
+                return Needs(self.sensors.graph, given, memory, robots, named)
             self.memory -= told
+
+    def _named(self) -> list[tuple[Slot, Node]]:
+        sensed = [*self.sensors.nodes.items(), *self.sensors.definitions.items()]
+        return [(slot, node) for slot, node in sensed if slot.name not in self.sensors.given]
 
     # --- Which state is what
 

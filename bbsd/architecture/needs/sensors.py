@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bbsd.architecture.needs.naming import before
 from bbsd.expression.graph import Graph, Level
 from bbsd.language.field_types import Expression, signature
-from bbsd.language.meaning.episode import slots_read, starting_values, stored_sensors
+from bbsd.language.meaning.episode import definitions_at, slots_read, starting_values, stored_sensors
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, scalars_by_slot
 from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
@@ -40,13 +40,15 @@ class Sensors:
     graph: Graph
     nodes: Mapping[Slot, Node]
     given: frozenset[str]
+    definitions: Mapping[Slot, Node]
+    """Definitions without parameters, if they were asked for."""
 
 
-def sensors_of(meaning: Meaning, is_given: IsGiven) -> Sensors:
+def sensors_of(meaning: Meaning, is_given: IsGiven, *, definitions: bool = False) -> Sensors:
     """Return the sensors of a decision, those that must be given as leaves that read their slots."""
     names = names_of(meaning)
     names.graph.bounded = False
-    return _Resolver(names, is_given).resolved()
+    return _Resolver(names, is_given).resolved(definitions=definitions)
 
 
 @dataclass(slots=True)
@@ -58,7 +60,7 @@ class _Resolver:
     nodes: dict[Slot, Node] = field(default_factory=dict)
     given: set[str] = field(default_factory=set)
 
-    def resolved(self) -> Sensors:
+    def resolved(self, *, definitions: bool) -> Sensors:
         names, graph = self.names, self.names.graph
         first = starting_values(names)
         now = slots_read(first, names)
@@ -85,7 +87,8 @@ class _Resolver:
                 self.nodes.update(nodes)
                 for moment in (later, first_time):
                     _set(moment.sensed, name, robot, [*nodes.values()])
-        return Sensors(graph, self.nodes, frozenset(self.given))
+        defined = definitions_at(later) if definitions else {}
+        return Sensors(graph, self.nodes, frozenset(self.given), defined)
 
     def _combined(self, later: Mapping[Slot, Node], first: Mapping[Slot, Node]) -> dict[Slot, Node]:
         """Return the values of a sensor in any step, given those in later steps and in the first one."""
