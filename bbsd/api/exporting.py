@@ -12,9 +12,10 @@ from bbsd.exports.exported import Options, exported_design
 from bbsd.exports.targets import TARGETS
 from bbsd.exports.verification.comparing import Verified
 from bbsd.exports.verification.comparing import verify as verify_files
+from bbsd.exports.verification.following import Followed, follow
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from bbsd.exports.exported import Files
 
@@ -31,6 +32,12 @@ class NoLeaves(UsageError):
     advice = "the target btcpp has custom leaves"
 
 
+class NoSensing(UsageError):
+    """Sensors are to be written for a target that has none, or something is said of them where they are not written."""
+
+    advice = "sensors are written with --to c --sensing"
+
+
 @dataclass(frozen=True, slots=True)
 class Export:
     """A design in another language: the texts of files by name, the main one first, and what came of verifying them."""
@@ -41,6 +48,8 @@ class Export:
     files: Files
     verified: tuple[Verified, ...]
     """What came of each tool that ran the files; empty where that was not asked for, or nothing runs them."""
+    followed: Followed | None = None
+    """What came of running sensors and assignments beside the design; None where they are not written or verified."""
 
     def __repr__(self) -> str:
         return f"<Export of {self.design}: {', '.join(self.files)}>"
@@ -54,8 +63,10 @@ class Export:
     def is_verified(self) -> bool:
         """Whether every tool that is needed ran it, and all answers of all tools that ran were equal."""
         needed = [each for each in self.verified if each.needed]
-        return bool(needed) and all(
-            each.is_equal or (each.missing and not each.needed) for each in self.verified
+        return (
+            bool(needed)
+            and all(each.is_equal or (each.missing and not each.needed) for each in self.verified)
+            and (self.followed is None or self.followed.is_equal)
         )
 
 
@@ -65,6 +76,9 @@ def export(
     *,
     verify: bool = False,
     sensing: bool = False,
+    measured: Collection[str] = (),
+    remembered: Collection[str] = (),
+    episodes: int = 3,
     leaves: Literal["script", "custom"] = "script",
     seed: int = 0,
     overrides: Sequence[str] = (),
@@ -75,7 +89,10 @@ def export(
         spec: A design: a spec without holes, or the folder of a run.
         to: The target, one of `bbsd.exports.targets.TARGETS`.
         verify: Run what was written through the target, in all joint cells or a sample of many.
-        sensing: Also write sensors, excitation and assignments, where the target can have them.
+        sensing: Also write sensors, excitation and assignments, in C.
+        measured: With `sensing`, sensors and state that the robot measures, so that they are given.
+        remembered: With `sensing`, state that the robot keeps itself, though nothing but the dynamics change it.
+        episodes: With `sensing`, recorded episodes beside which `verify` runs what was written.
         leaves: How the leaves of a tree are written.
         seed: Seed of the draws in constants.
         overrides: Values that replace those of the spec.
@@ -85,14 +102,23 @@ def export(
         HolesLeft: the spec has holes.
         NoSuchTarget: there is no such target.
         NoLeaves: another target than btcpp has no custom leaves.
+        NoSensing: another target than C has no sensors, or values are measured or remembered without them.
+        NotMeasured, NotRemembered: nothing of such a name can be.
     """
     if to not in TARGETS:
         raise NoSuchTarget(f"{to!r} is no target{did_you_mean(to, TARGETS)}")
     if leaves != "script" and to != "btcpp":
         raise NoLeaves(f"{to} has no {leaves} leaves")
+    if sensing and to != "c":
+        raise NoSensing(f"{to} has no sensors")
+    if (measured or remembered) and not sensing:
+        raise NoSensing("values are measured or remembered only where sensors are written")
     loaded = load(spec, seed=seed, overrides=overrides)
     exported = exported_design(loaded.meaning, architecture_of(loaded.meaning))
     target = TARGETS[to]
-    files = target.write(exported, Options(sensing=sensing, leaves=leaves))
+    options = Options(sensing, tuple(measured), tuple(remembered), leaves)
+    files = target.write(exported, options)
     verified = verify_files(exported, files, target.runners) if verify else []
-    return Export(exported.controller.name, exported.controller.digest, to, files, tuple(verified))
+    followed = follow(exported, options, files, episodes) if verify and sensing else None
+    controller = exported.controller
+    return Export(controller.name, controller.digest, to, files, tuple(verified), followed)

@@ -51,6 +51,29 @@ def export(
             "differs, or if the target is not on this machine.",
         ),
     ] = False,
+    sensing: Annotated[
+        bool,
+        typer.Option(
+            "--sensing",
+            help="Of c: from what the robot measures, also compute sensors, excitation and what actions set.",
+        ),
+    ] = False,
+    measured: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME", help="With --sensing: a sensor or state that the robot measures. Repeatable."
+        ),
+    ] = None,
+    remembered: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME", help="With --sensing: state that the robot keeps itself. Repeatable."),
+    ] = None,
+    episodes: Annotated[
+        int,
+        typer.Option(
+            min=1, help="With --sensing: recorded episodes beside which --verify runs what was written."
+        ),
+    ] = 3,
     leaves: Annotated[
         Leaves,
         typer.Option(
@@ -63,12 +86,22 @@ def export(
     """Write a design in another language, to be used in a program of your own.
 
     The file decides from the cells of the behaviors' inputs: your program tells it which cells its sensors are in, and
-    it answers with the action of the behavior that controls. It needs nothing else.
+    it answers with the action of the behavior that controls. It needs nothing else. With --sensing it computes the
+    cells, and what the action sets, from what your robot measures.
     """
     if out is not None:
         require_writable_file(out)
     exported = bbsd.export(
-        design, to.value, verify=verify, leaves=leaves.value, seed=seed, overrides=overrides or ()
+        design,
+        to.value,
+        verify=verify,
+        sensing=sensing,
+        measured=measured or (),
+        remembered=remembered or (),
+        episodes=episodes,
+        leaves=leaves.value,
+        seed=seed,
+        overrides=overrides or (),
     )
     _write(exported, out)
     if verify:

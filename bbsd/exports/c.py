@@ -45,6 +45,7 @@ class Writing(NamedTuple):
 
     @property
     def upper(self) -> str:
+        """What constants begin with."""
         return self.prefix.upper()
 
 
@@ -72,6 +73,7 @@ def write(exported: Exported, options: Options) -> Files:  # noqa: ARG001 - all 
 
 
 def named(controller: Controller) -> Writing:
+    """Return a controller with the identifiers that its header has."""
     prefix = words_of(controller.name).lower()
     prefix = prefix if prefix and not prefix[0].isdigit() else f"design_{prefix}".rstrip("_")
     parameters, upper = Names(RESERVED), f"{prefix}_".upper()

@@ -5,7 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.exports import btcpp, c, python, pytrees, ros2
+from bbsd.exports import btcpp, python, pytrees, ros2
+from bbsd.exports.sensing import header
 from bbsd.exports.verification.behaviortree import most_cells_of_btcpp, run_btcpp
 from bbsd.exports.verification.compilers import run_gcc
 from bbsd.exports.verification.interpreters import run_cpython, run_micropython
@@ -28,7 +29,11 @@ class Target(NamedTuple):
 
 TARGETS: Mapping[str, Target] = MappingProxyType(
     {
-        "c": Target("a C99 header, whole numbers only", c.write, (Runner("gcc", run_gcc),)),
+        "c": Target(
+            "a C99 header: whole numbers only, or with sensors and assignments in binary64",
+            header.write,
+            (Runner("gcc", run_gcc),),
+        ),
         "python": Target(
             "a Python module without dependencies, also for MicroPython",
             python.write,

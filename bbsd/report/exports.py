@@ -9,6 +9,7 @@ from bbsd.errors import escape
 if TYPE_CHECKING:
     from bbsd.api.exporting import Export
     from bbsd.exports.verification.comparing import Verified
+    from bbsd.exports.verification.following import Followed
 
 LONGEST = 9
 """Digits of a number that is written out."""
@@ -18,7 +19,10 @@ def verified_lines(export: Export) -> list[str]:
     """Return a line for each tool that ran an export, and one for a cell in which it differs."""
     if not export.verified:
         return [f"nothing here runs {export.target}: not verified"]
-    return [escape(line) for verified in export.verified for line in _lines(verified)]
+    lines = [line for verified in export.verified for line in _lines(verified)]
+    if export.followed is not None and not export.followed.missing:
+        lines += _followed_lines(export.followed)
+    return [escape(line) for line in lines]
 
 
 def _lines(verified: Verified) -> list[str]:
@@ -40,3 +44,19 @@ def _magnitude(number: int) -> str:
     """Return a number whose digits nobody would read as a power of ten."""
     digits = len(str(number))
     return f"{number:,}" if digits <= LONGEST else f"about 10^{digits - 1}"
+
+
+def _followed_lines(followed: Followed) -> list[str]:
+    """Return what came of running sensors and assignments beside the design; its last line is a difference."""
+    tool = f"{followed.tool} with sensing"
+    if followed.failure:
+        return [f"{tool}: not verified: {followed.failure}"]
+    episodes = f"of {followed.episodes} recorded episode{'' if followed.episodes == 1 else 's'}"
+    steps = f"{followed.equal_steps:,} of {followed.steps:,} steps {episodes}"
+    if not followed.episodes:
+        steps = "no recorded episodes, as the environment is stepped in Python"
+    situations = (
+        f"{followed.equal_situations:,} of {followed.situations:,} situations at edges of cells and elsewhere"
+    )
+    lines = [f"{tool}: equal in {steps}; {situations} (tested, not proven)"]
+    return lines if followed.is_equal else [*lines, f"  where {followed.first_difference}"]

@@ -88,8 +88,12 @@ class Emitter:
         counts.update(node.number for node in outputs)
         texts, depths = dict(block.texts), dict[int, int]()
         for node in nodes:
-            text = texts[node.number] = self._operation(node, [texts[operand.number] for operand in node.operands], block)
-            depth = depths[node.number] = 1 + max((depths.get(operand.number, 0) for operand in node.operands), default=-1)
+            text = texts[node.number] = self._operation(
+                node, [texts[operand.number] for operand in node.operands], block
+            )
+            depth = depths[node.number] = 1 + max(
+                (depths.get(operand.number, 0) for operand in node.operands), default=-1
+            )
             is_long = len(text.source) > LONGEST_TEXT or depth >= DEEPEST
             if node.operation not in PLAIN and (node.number in hints or counts[node.number] > 1 or is_long):
                 texts[node.number] = self._named(node, text, hints.get(node.number), block)
@@ -112,17 +116,9 @@ class Emitter:
     def _operation(self, node: Node, operands: list[Text], block: Block) -> Text:
         if node.operation in INFIX:
             return self._infix(node, operands)
+        if not node.operands or node.operation in ("of", "other"):
+            return self._leaf(node, block)
         match node.operation:
-            case "literal":
-                return literal(value_of(node), node.kind)
-            case "constant":
-                return Text(self.reading.constant(node.index))
-            case "step":
-                return Text("step")
-            case "own" | "of" | "other":
-                return self._read(node)
-            case "table":
-                return self._table(node, block)
             case "each":
                 return self._each(operands)
             case "draw":
@@ -138,8 +134,20 @@ class Emitter:
             case "cell_of":
                 return operands[0]
             case "whole_power" | "clamp_index":
-                return self.call(function_of(node.operation), [*operands, Text(str(node.index))])
+                operands = [*operands, Text(str(node.index))]
         return self.call(function_of(node.operation), operands)
+
+    def _leaf(self, node: Node, block: Block) -> Text:
+        match node.operation:
+            case "literal":
+                return literal(value_of(node), node.kind)
+            case "constant":
+                return Text(self.reading.constant(node.index))
+            case "step":
+                return Text("step")
+            case "table":
+                return self._table(node, block)
+        return self._read(node)
 
     def _infix(self, node: Node, operands: list[Text]) -> Text:
         left, right = node.operands

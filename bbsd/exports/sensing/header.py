@@ -10,9 +10,10 @@ from bbsd.architecture.needs import needs_of
 from bbsd.exports import c
 from bbsd.exports.c import comment
 from bbsd.exports.sensing.functions import functions_text
+from bbsd.exports.sensing.head import head_of
 from bbsd.exports.sensing.playing import Player
 from bbsd.exports.sensing.program import Program
-from bbsd.exports.sensing.statements import INDENT, statements_of
+from bbsd.exports.sensing.statements import INDENT, names_in, statements_of
 from bbsd.exports.sensing.values import Member
 from bbsd.expression.kinds import Kind
 
@@ -61,7 +62,7 @@ def sensing_of(exported: Exported, options: Options) -> Sensing:
     measured, remembered = options.measured, options.remembered
     needs = needs_of(meaning, controller, measured=measured, remembered=remembered, definitions=True)
     generation = meaning.spec.design.coevolution.generations
-    program = Program(meaning, controller, needs, meaning.constants.vector(generation))
+    program = Program(meaning, controller, needs, meaning.constants.vector(generation), measured)
     return Sensing(program, c.named(controller))
 
 
@@ -71,9 +72,12 @@ class Sensing:
     def __init__(self, program: Program, writing: Writing) -> None:
         self.program, self.writing = program, writing
         self.statements = statements_of(program, writing)
-        self.inputs = [*program.inputs.declared, *program.draws.values()]
-        self.memory = [*program.memory.declared, *self._own_memory()]
-        self.outputs = program.outputs.declared
+        self.members = {
+            "inputs": [*program.inputs.declared, *program.draws.values()],
+            "memory": [*program.memory.declared, *self._own_memory()],
+            "outputs": program.outputs.declared,
+        }
+        """The members of each struct; of those that have none, there is no struct."""
 
     @property
     def player(self) -> Player:
@@ -87,7 +91,7 @@ class Sensing:
         functions = functions_text(self.program.emitter.used)
         code = "\n".join([*functions, *body])
         lines = [
-            *self._head(),
+            *head_of(self.writing.prefix, self.program, self.members, self.statements),
             f"#ifndef {upper}_SENSING_H",
             f"#define {upper}_SENSING_H",
             "",
@@ -108,22 +112,17 @@ class Sensing:
         if self.statements.counts_steps:
             yield Member("step", Kind.NUMBER, comment="steps until now")
 
-    def _head(self) -> list[str]:
-        """Return the comment that says how to use it."""
-        prefix = self.writing.prefix
-        return comment(f"{prefix}")
-
     def _structs(self) -> Iterator[str]:
         """Yield the types of what is given, kept and set."""
         prefix = self.writing.prefix
-        groups = (
-            ("inputs", self.inputs, "What the robot is given before each step."),
-            ("memory", self.memory, f"What the robot keeps from step to step; {prefix}_start() writes it first."),
-            ("outputs", self.outputs, "What state that actions set is after the action; what none set stays."),
-        )
-        for name, members, said in groups:
+        said = {
+            "inputs": "What the robot is given before each step.",
+            "memory": f"What the robot keeps from step to step; {prefix}_start() writes it first.",
+            "outputs": "What state that actions set is after the action; what none set stays.",
+        }
+        for name, members in self.members.items():
             if members:
-                yield from comment(said)
+                yield from comment(said[name])
                 yield f"struct {prefix}_{name} {{"
                 for member in members:
                     yield from _declared(member)
@@ -132,7 +131,7 @@ class Sensing:
 
     def _start(self) -> Iterator[str]:
         """Yield the function that writes the memory before the first step."""
-        if not self.memory:
+        if not self.members["memory"]:
             return
         prefix = self.writing.prefix
         robot = ", int robot" if self.statements.uses_robot else ""
@@ -151,23 +150,22 @@ class Sensing:
 
     def _zeros(self) -> Iterator[str]:
         """Yield what writes zeros where nothing else was written: what is not read before the second step."""
+        written = {name for line in self.statements.start for name in re.findall(r"^memory->(\w+)", line)}
         for member in self.program.memory.declared:
-            if not any(f"memory->{member.identifier}" in line for line in self.statements.start):
+            if member.identifier not in written:
                 yield from _zeroed(member)
 
     def _step(self) -> Iterator[str]:
         """Yield the function that takes a step."""
         prefix, upper = self.writing.prefix, self.writing.upper
         pointers = [
-            text
-            for members, text in (
-                (self.inputs, f"const struct {prefix}_inputs *inputs"),
-                (self.memory, f"struct {prefix}_memory *memory"),
-                (self.outputs, f"struct {prefix}_outputs *outputs"),
-            )
+            f"{'const ' if name == 'inputs' else ''}struct {prefix}_{name} *{name}"
+            for name, members in self.members.items()
             if members
         ]
-        yield from comment(f"Take a step: return the controlling action, or {upper}_NOBODY, and do what it does.")
+        yield from comment(
+            f"Take a step: return the controlling action, or {upper}_NOBODY, and do what it does."
+        )
         yield f"static inline enum {prefix}_action {prefix}_step("
         yield f"{INDENT}{f',{chr(10)}{INDENT}'.join(pointers) or 'void'})"
         yield "{"
@@ -181,7 +179,7 @@ class Sensing:
 
     def _constants(self, statements: Sequence[str]) -> Iterator[str]:
         """Yield the declarations of the constants that statements read."""
-        read = {word for line in statements for word in re.findall(r"[a-z]\w*", line)}
+        read = names_in(statements)
         declared = {**dict(self.program.tables.values()), **self.program.constant_lines}
         yield from _indented(line for name, line in declared.items() if name in read)
 

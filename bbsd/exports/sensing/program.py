@@ -13,13 +13,14 @@ from bbsd.exports.sensing.naming import Namer
 from bbsd.exports.sensing.team import Team
 from bbsd.exports.sensing.text import number
 from bbsd.exports.sensing.values import Member, Values, values_of
+from bbsd.expression.graph import needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.language.field_types import Expression, signature
 from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterator, Mapping, Sequence
 
     from bbsd.architecture.controller import Controller
     from bbsd.architecture.needs import Needs
@@ -46,6 +47,7 @@ class Program:
     controller: Controller
     needs: Needs
     constants: Sequence[float]
+    measured: Collection[str] = ()
     draws: dict[RobotDraws, Member] = field(default_factory=dict)
     """The names of the random numbers that the robot must be given."""
     constant_lines: dict[str, str] = field(default_factory=dict)
@@ -95,7 +97,7 @@ class Program:
         of_team = frozenset(slot.name for robot, slot in kept if slot.robot not in (None, robot))
         slots = dict.fromkeys(_any_robots(slot) for _, slot in kept)
         comments = {slot.name: self._memory_comment(slot.name) for slot in slots}
-        kinds = self._kinds | {slot: self.kind_of(slot) for slot in slots}
+        kinds = {slot: self.kind_of(slot) for slot in slots}
         return values_of(slots, kinds, Namer(), len(self.needs.robots), of_team, comments)
 
     @cached_property
@@ -121,10 +123,21 @@ class Program:
                 comments[each.name] = f"sensor: {written}"
                 if is_partition(sensor):
                     labels = ", ".join(f"{k}: {cell}" for k, cell in enumerate(self._cells(each.name)))
-                    comments[each.name] = f"sensor, as a cell: {labels}"
+                    comments[each.name] = f"cell of the sensor, {labels}: {written}"
             else:
-                comments[each.name] = "of every robot" if each.of_team else each.block
+                whose = "of each robot of the team" if each.of_team else "of the robot"
+                comments[each.name] = "of the world" if each.block == "world" else f"state {whose}"
         return comments
+
+    def draws_itself(self, name: str) -> bool:
+        """Return whether a value is given as it is a sensor that draws."""
+        nodes = [node for slot, node in self.meaning.episode.after.items() if slot.name == name]
+        is_sensor = name in self.meaning.spec.environment.sensors
+        return (
+            is_sensor
+            and name not in self.measured
+            and any(each.operation == "draw" for each in needed(nodes))
+        )
 
     def n_cells(self, sensor: str) -> int:
         """Return the number of cells of a sensor that is a partition."""
@@ -142,7 +155,9 @@ class Program:
 
     def _place(self, slot: Slot, robot: str) -> str:
         if slot.name.startswith(ACTED):
-            return f"outputs->{self.outputs.place(Slot(plain_name(slot.name), slot.robot, slot.place), robot)}"
+            return (
+                f"outputs->{self.outputs.place(Slot(plain_name(slot.name), slot.robot, slot.place), robot)}"
+            )
         if (given := self.inputs.place(slot, robot)) is not None:
             if self._kinds[slot] is Kind.CELL:
                 self.emitter.used.add("bbsd_clamp_cell")
@@ -163,7 +178,9 @@ class Program:
 
     def _table(self, place: int) -> tuple[str, int]:
         first, size, name = next(
-            (first, size, name) for first, size, name in self._constant_ranges if first <= place < first + size
+            (first, size, name)
+            for first, size, name in self._constant_ranges
+            if first <= place < first + size
         )
         if name not in self.tables:
             values = ", ".join(number(value).source for value in self.constants[first : first + size])

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from bbsd.exports.sensing.text import Text
     from bbsd.expression.graph import Node
 
-NAME = re.compile(r"[A-Za-z_]\w*")
+NAME = re.compile(r"(?<![\w>.])[A-Za-z_]\w*")
+"""A name that is no member of a struct."""
 INDENT = "    "
 
 
@@ -40,11 +41,14 @@ class Statements(NamedTuple):
 def statements_of(program: Program, writing: Writing) -> Statements:
     """Return the statements that start a robot's memory and that take a step."""
     start, step = _start(program), _step(program, writing)
-    return Statements(start, step, _mentions("robot", [*start, *step]), _mentions("step", step))
+    in_step = names_in(step)
+    return Statements(start, step, "robot" in in_step | names_in(start), "step" in in_step)
 
 
-def _mentions(name: str, lines: Iterable[str]) -> bool:
-    return any(name in NAME.findall(line) for line in lines if not line.lstrip().startswith(("/*", "*")))
+def names_in(lines: Iterable[str]) -> set[str]:
+    """Return the names that statements use, without those in comments."""
+    code = (line for line in lines if not line.lstrip().startswith(("/*", "*")))
+    return {name for line in code for name in NAME.findall(line)}
 
 
 def _family(program: Program, slot: Slot, of: Callable[[RobotNeeds, Slot], Node | None]) -> Node:

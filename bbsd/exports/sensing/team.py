@@ -43,7 +43,9 @@ class Team:
             top, whose = waiting[-1]
             key = _key(top, whose)
             missing = [
-                part for part in self._parts(top, whose) if key not in self.merged and _key(*part) not in self.merged
+                part
+                for part in self._parts(top, whose)
+                if key not in self.merged and _key(*part) not in self.merged
             ]
             if missing:
                 waiting += missing
@@ -81,7 +83,9 @@ class Team:
         """Return what reads a slot: the robot's own or the world's, one robot's, or another one's for each robot."""
         graph, first = self.graph, family[0]
         slot = first.slot
-        own = graph.leaf("own", slot if slot.robot is None else slot._replace(robot=0), first.kind, Level.LANE)
+        own = graph.leaf(
+            "own", slot if slot.robot is None else slot._replace(robot=0), first.kind, Level.LANE
+        )
         read = [node.slot.robot for node in family]
         if slot.robot is None or read == list(robots):
             return own
@@ -112,5 +116,7 @@ def _has_like_data(node: Node, first: Node) -> bool:
         case Draw(distribution), Draw(other):
             return distribution == other
     if node.operation == "slot":
-        return node.slot.variable == first.slot.variable and (node.slot.robot is None) == (first.slot.robot is None)
+        return node.slot.variable == first.slot.variable and (node.slot.robot is None) == (
+            first.slot.robot is None
+        )
     return node.data == first.data and type(node.data) is type(first.data)

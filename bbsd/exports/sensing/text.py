@@ -47,7 +47,10 @@ def infix(operation: str, left: Text, right: Text) -> Text:
     """Join two operands; what compilers warn of, as `&&` within `||`, gets parentheses, too."""
     operator, binds = INFIX[operation]
     if binds in (OR, AND):
-        sides = [text.source if text.binds in (binds, ATOM) or text.binds > AND else f"({text.source})" for text in (left, right)]
+        sides = [
+            text.source if text.binds in (binds, ATOM) or text.binds > AND else f"({text.source})"
+            for text in (left, right)
+        ]
     elif binds in (EQUALITY, COMPARISON):
         sides = [grouped(left, SUM), grouped(right, SUM)]
     else:

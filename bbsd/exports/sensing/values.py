@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.architecture.needs import BEFORE
 from bbsd.exports.sensing.text import TYPES
-from bbsd.expression.kinds import Kind
-from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from bbsd.exports.sensing.naming import Namer
+    from bbsd.expression.kinds import Kind
+    from bbsd.expression.node_data import Slot
 
 Shape = tuple[int, ...]
 

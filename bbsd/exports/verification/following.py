@@ -1,4 +1,4 @@
-"""Whether a header with sensing does what the design does: in recorded episodes, at the edges of cells, and elsewhere."""
+"""Whether a header with sensing does what the design does: in recorded episodes, at edges of cells, and elsewhere."""
 
 from __future__ import annotations
 
@@ -97,8 +97,10 @@ def _difference(driver: Driver, step: Step, answer: Sequence[float]) -> str:
     differs = [
         f"{name} {wanted!r}, and there {got!r}"
         for name, wanted, got in zip(names, expected, answer, strict=True)
-        if repr(wanted) != repr(got)
+        if wanted is not None and repr(wanted) != repr(got)
     ]
-    given = [f"{each.place} {step.situation.given[each.of(step.situation.robot)]!r}" for each in driver.inputs]
+    given = [
+        f"{each.place} {step.situation.given[each.of(step.situation.robot)]!r}" for each in driver.inputs
+    ]
     where = f"robot {step.situation.robot}, step {step.situation.step}, {', '.join(given)}"
     return f"{where}: the design has {'; '.join(differs)}"

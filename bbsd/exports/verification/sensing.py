@@ -52,6 +52,12 @@ int main(void)
     return fclose(answers) == 0 && fclose(rows) == 0 ? 0 : 1;
 }}
 """
+
+
+FIRST = 3
+"""Where the memory begins in a row."""
+
+
 class Memory(Enum):
     """What a robot's memory is before a step."""
 
@@ -106,15 +112,17 @@ class Driver:
             *randoms,
         ]
 
-    def expected(self, situation: Situation, answer: Answer) -> list[float]:
-        """Return an answer as a row."""
+    def expected(self, situation: Situation, answer: Answer) -> list[float | None]:
+        """Return an answer as a row; None for what other robots of the team keep, but not this one."""
         return [
             float(answer.action),
             *(float(answer.set_values[each.slot.name]) for each in self.outputs),
-            *(float(answer.kept.get(each.of(situation.robot), np.nan)) for each in self.memory),
+            *(_float(answer.kept.get(each.of(situation.robot))) for each in self.memory),
         ]
 
-    def run(self, files: Files, rows: Sequence[Sequence[float]], compiler: str, flags: Sequence[str]) -> Floats:
+    def run(
+        self, files: Files, rows: Sequence[Sequence[float]], compiler: str, flags: Sequence[str]
+    ) -> Floats:
         """Return the answers (n, width) to rows. Raises ToolMissing, ToolFailed."""
         header = next(iter(files))
         program = found(compiler)
@@ -131,12 +139,12 @@ class Driver:
     def _text(self, header: str) -> str:
         prefix, parts = header.removesuffix(".h"), self.sensing
         declarations, statements, arguments = list[str](), list[str](), list[str]()
-        for name, members in (("inputs", parts.inputs), ("memory", parts.memory), ("outputs", parts.outputs)):
+        for name, members in parts.members.items():
             if members:
                 arguments.append(f"&{name}")
                 declarations.append(f"struct {prefix}_{name} {name};")
-        place, first = 3, ""
-        if parts.memory:
+        first = ""
+        if parts.members["memory"]:
             uses_robot = parts.statements.uses_robot
             first = f"    {prefix}_start(&memory{', 0' if uses_robot else ''});"
             robot = ", (int)row[1]" if uses_robot else ""
@@ -144,13 +152,14 @@ class Driver:
             statements.append("} if (row[0] > 1.0) {")
             if parts.statements.counts_steps:
                 statements.append("memory.step = row[2];")
-            for place, each in enumerate(self.memory, place):
+            for place, each in enumerate(self.memory, FIRST):
                 statements.append(f"memory.{each.place} = {_cast(each.kind, place)};")
             statements.append("}")
-        place = 3 + len(self.memory)
-        for place, each in enumerate(self.inputs, place):
+        for place, each in enumerate(self.inputs, FIRST + len(self.memory)):
             statements.append(f"inputs.{each.place} = {_cast(each.kind, place)};")
-        for place, member in enumerate(self.sensing.program.draws.values(), 3 + len(self.memory) + len(self.inputs)):
+        for place, member in enumerate(
+            self.sensing.program.draws.values(), FIRST + len(self.memory) + len(self.inputs)
+        ):
             statements.append(f"inputs.{member.identifier} = row[{place}];")
         statements.append(f"out[0] = (double){prefix}_step({', '.join(arguments)});")
         for place, each in enumerate(self.outputs, 1):
@@ -159,7 +168,7 @@ class Driver:
             statements.append(f"out[{place}] = (double)memory.{each.place};")
         return DRIVER.format(
             header=header,
-            width=3 + len(self.memory) + len(self.inputs) + len(self.sensing.program.draws),
+            width=FIRST + len(self.memory) + len(self.inputs) + len(self.sensing.program.draws),
             answers=1 + len(self.outputs) + len(self.memory),
             first=first,
             declarations="\n".join(f"    {line}" for line in declarations),
@@ -173,9 +182,14 @@ def _cast(kind: Kind, place: int) -> str:
     return f"(int)row[{place}]" if kind is Kind.CELL else f"row[{place}]"
 
 
-def equal_rows(answers: Floats, expected: Sequence[Sequence[float]]) -> npt.NDArray[np.bool_]:
-    """Return which answers (n, width) have the bits of what is expected; NaN is NaN whatever its bits."""
-    wanted = np.array(expected, np.float64).reshape(answers.shape)
-    same = answers.view(np.int64) == wanted.view(np.int64)
-    equal: npt.NDArray[np.bool_] = (same | (np.isnan(answers) & np.isnan(wanted))).all(axis=1)
+def _float(value: float | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def equal_rows(answers: Floats, expected: Sequence[Sequence[float | None]]) -> npt.NDArray[np.bool_]:
+    """Return which answers (n, width) have the bits of all that is expected; NaN is NaN whatever its bits."""
+    unknown = np.array([[value is None for value in row] for row in expected], np.bool_)
+    numbers = np.array([[0.0 if value is None else value for value in row] for row in expected], np.float64)
+    same = answers.view(np.int64) == numbers.view(np.int64)
+    equal: npt.NDArray[np.bool_] = (unknown | same | (np.isnan(answers) & np.isnan(numbers))).all(axis=1)
     return equal

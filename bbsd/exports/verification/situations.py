@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf, nan
@@ -32,8 +33,14 @@ ODD = (nan, inf, -inf, 0.0, -0.0, 1e308, -1e308, 5e-324, 2.0**31, -(2.0**63), 1e
 """Numbers that a robot should not meet, one at a time."""
 BASES = 8
 """Situations from which edges are looked for."""
-EDGES = 150
-"""Edges that are looked for, at most."""
+EDGES = 12
+"""Edges of a comparison after which no more are looked for."""
+IDLE = 0.2
+"""What an edge counts at which another cell leads to the same action."""
+EDGES_BETWEEN = 6
+"""Edges between two numbers that are looked for."""
+MOST_EVALUATIONS = 15_000
+"""Situations in which the comparisons of a robot are looked at."""
 DRAWN = 500
 """Situations that are drawn."""
 
@@ -115,20 +122,15 @@ def _with(situation: Situation, scalar: Scalar, value: Any) -> Situation:  # noq
 
 def _edges(driver: Driver, bases: Sequence[Situation]) -> Iterator[Situation]:
     """Yield situations on both sides of where a comparison changes as one number does, and the numbers next to them."""
-    found = 0
+    tells = {robot: _Tells(driver.sensing.player, robot) for robot in {base.robot for base in bases}}
     for base in bases:
-        tells = _Tells(driver.sensing.player, base.robot)
+        own = tells[base.robot]
         for each in (*driver.inputs, *driver.memory):
-            if each.kind is not Kind.NUMBER:
-                continue
-            for low, high in pairwise(_places(each, base, bases, tells)):
-                if found == EDGES:
-                    return
-                edge = tells.edge(base, each, low, high)
-                if edge is not None:
-                    found += 1
-                    for place in range(edge - 1, edge + 3):
-                        yield _with(base, each, _number_at(place))
+            if each.kind is Kind.NUMBER:
+                for low, high in pairwise(_places(each, base, bases, own)):
+                    for edge in own.edges(base, each, low, high):
+                        for place in range(edge - 1, edge + 3):
+                            yield _with(base, each, _number_at(place))
 
 
 def _places(scalar: Scalar, base: Situation, bases: Sequence[Situation], tells: _Tells) -> list[float]:
@@ -147,7 +149,9 @@ class _Tells:
     """The comparisons on which a robot's decision depends."""
 
     def __init__(self, player: Player, robot: int) -> None:
-        self.player = player
+        self.player, self.evaluations = player, 0
+        self.found = defaultdict[int, float](float)
+        """How many edges were found of each comparison; less of one at which the action stays the same."""
         nodes = needed(player.needs.robots[robot].cells.values())
         self.nodes = [node for node in nodes if _tells(node)]
         literals = (operand for node in self.nodes for operand in node.operands)
@@ -157,21 +161,37 @@ class _Tells:
 
     def at(self, situation: Situation) -> list[Any]:
         """Return what they say in a situation."""
+        self.evaluations += 1
         return self.player.values(self.nodes, situation)
 
-    def edge(self, base: Situation, scalar: Scalar, low: float, high: float) -> int | None:
-        """Return the place of the last number, from low on, at which all says what it says at low; None for none."""
-        first = self.at(_with(base, scalar, low))
-        if first == self.at(_with(base, scalar, high)):
-            return None
-        below, above = _place_of(low), _place_of(high)
-        while above - below > 1:
-            middle = (below + above) // 2
-            if self.at(_with(base, scalar, _number_at(middle))) == first:
-                below = middle
-            else:
-                above = middle
-        return below
+    def edges(self, base: Situation, scalar: Scalar, low: float, high: float) -> Iterator[int]:
+        """Yield the places between two numbers after which a comparison says something else.
+
+        No more are looked for once each comparison in sight changed often enough, or much was evaluated.
+        """
+        last, after = self.at(_with(base, scalar, high)), _place_of(low)
+        for _ in range(EDGES_BETWEEN):
+            first = self.at(_with(base, scalar, _number_at(after)))
+            changed = {
+                index for index, (one, other) in enumerate(zip(first, last, strict=True)) if one != other
+            }
+            if all(self.found[index] >= EDGES for index in changed) or self.evaluations > MOST_EVALUATIONS:
+                return
+            below, above = after, _place_of(high)
+            while above - below > 1:
+                middle = (below + above) // 2
+                if self.at(_with(base, scalar, _number_at(middle))) == first:
+                    below = middle
+                else:
+                    above = middle
+            beyond = self.at(_with(base, scalar, _number_at(above)))
+            sides = [_with(base, scalar, _number_at(place)) for place in (below, above)]
+            matters = len({self.player.answer(side).action for side in sides}) > 1
+            for index in changed:
+                if first[index] != beyond[index]:
+                    self.found[index] += 1.0 if matters else IDLE
+            yield below
+            after = above
 
 
 def _tells(node: Node) -> bool:

@@ -92,3 +92,37 @@ def test_custom_leaves_are_those_of_one_target():
     code, out, err = bbsd("export", DESIGN, "--to", "c", "--leaves", "custom")
     assert (code, out) == (2, "")
     assert "c has no custom leaves" in err
+
+
+def test_a_header_with_sensing_is_run_beside_the_design(tmp_path):
+    tool("gcc")
+    words = ("--to", "c", "--sensing", "--episodes", 1, "-o", tmp_path / "lift.h", "--verify")
+    code, out, err = bbsd("export", DESIGN, *words)
+    assert (code, out) == (0, "")
+    _, cells, sensing = err.splitlines()
+    assert cells == "gcc: 72 of 72 cells equal"
+    assert sensing.startswith("gcc with sensing: equal in 900 of 900 steps of 1 recorded episode; ")
+    assert sensing.endswith(" situations at edges of cells and elsewhere (tested, not proven)")
+    assert "static inline double bbsd_atan(double x)" in (tmp_path / "lift.h").read_text()
+
+
+def test_what_the_robot_measures_is_an_input_of_the_header():
+    code, out, _ = bbsd("export", DESIGN, "--to", "c", "--sensing", "--measured", "tilt")
+    assert code == 0
+    assert "    double tilt; /*" in out or "    double tilt;" in out
+    assert "bbsd_atan" not in out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--to", "python", "--sensing"), "python has no sensors"),
+        (("--to", "c", "--measured", "tilt"), "only where sensors are written"),
+        (("--to", "c", "--sensing", "--measured", "tlt"), 'did you mean "tilt"?'),
+        (("--to", "c", "--sensing", "--remembered", "height"), "cannot remember height"),
+    ],
+)
+def test_what_cannot_be_sensed_is_refused_in_words(words, message):
+    code, out, err = bbsd("export", DESIGN, *words)
+    assert (code, out) == (2, "")
+    assert message in err

@@ -1,7 +1,7 @@
 """Specs that are made up, in C: it does what the design does, to the last bit."""
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from bbsd.architecture import Architecture
@@ -25,6 +25,7 @@ SANITIZED = (*STRICT, "-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitiz
 def test_made_up_designs_do_the_same_in_c(data, seed):
     tool("gcc")
     meaning, mistakes = elaborate(Spec.model_validate(data.draw(specs(most_robots=3))), seed)
+    assume(all(mistake.code != "BB125" for _, mistake in mistakes))  # a division by zero
     assert mistakes == ()
     agents = random_agents(compile_meaning(meaning, compiled=False), 1, seed)
     tables = tuple(pool[member] for pool, member in zip(agents.pools, agents.members[0], strict=True))
