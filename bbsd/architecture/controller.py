@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from bbsd.architecture.policy import JointSpace
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.tables.labels import Labels
+    from bbsd.language.models import Spec
+
+WORLD = ("definitions", "world", "state", "dynamics", "sensors")
+"""The blocks of an environment in which names have their meaning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +91,8 @@ class Controller:
     """A design without holes: what it tells apart, its layers from the highest down, and its actions.
 
     Action k is `actions[k - 1]`, counted over all behaviors of the spec as kernels do, whether they have a layer or
-    not. Layers whose behavior is never excited are left out. `digest` is of all this, but not of the name.
+    not. Layers whose behavior is never excited are left out. `digest` is of all this but the name, and of the
+    world that gives it its meaning.
     """
 
     name: str
@@ -116,7 +121,9 @@ def controller_of(meaning: Meaning, architecture: Architecture) -> Controller:
         for number in range(len(architecture.structure), 0, -1)
         if _may_be_excited(space, int(architecture.structure[number - 1]))
     )
-    return Controller(meaning.spec.name, _digest(dimensions, layers, actions), dimensions, layers, actions)
+    return Controller(
+        meaning.spec.name, _digest(meaning.spec, dimensions, layers, actions), dimensions, layers, actions
+    )
 
 
 def command(controller: Controller, cells: Sequence[int]) -> int:
@@ -179,9 +186,16 @@ def _layer(meaning: Meaning, architecture: Architecture, space: JointSpace, numb
     )
 
 
-def _digest(dimensions: Sequence[Dimension], layers: Sequence[Layer], actions: Sequence[Action]) -> str:
-    """Return 32 hexadecimal digits that are equal for designs of equal content."""
+def _digest(
+    spec: Spec, dimensions: Sequence[Dimension], layers: Sequence[Layer], actions: Sequence[Action]
+) -> str:
+    """Return 32 hexadecimal digits that are equal for designs of equal content in the same world.
+
+    What cells and actions mean depends on the constants, sensors and state that their expressions read.
+    """
     content: dict[str, Any] = {
+        "constants": _in_order(spec.constants),
+        "environment": [_in_order(getattr(spec.environment, block)) for block in WORLD],
         "dimensions": [[each.name, _cells(each.cells), each.text] for each in dimensions],
         "layers": [
             [each.behavior, each.excited, each.axes, each.excitement, each.excited_at, each.table.hex()]
@@ -191,6 +205,20 @@ def _digest(dimensions: Sequence[Dimension], layers: Sequence[Layer], actions: S
     }
     text = json.dumps(content, ensure_ascii=True, separators=(",", ":"))
     return blake2b(text.encode(), digest_size=16).hexdigest()
+
+
+def _in_order(entries: Mapping[str, Any]) -> list[Any]:
+    """Return entries by name, in the order of their names, with expressions as text."""
+    return [[name, _plain(entries[name])] for name in sorted(entries)]
+
+
+def _plain(written: Any) -> Any:  # noqa: ANN401 - expressions, nested in lists and mappings
+    match written:
+        case dict():
+            return [[name, _plain(each)] for name, each in written.items()]
+        case list() | tuple():
+            return [_plain(each) for each in written]
+    return one_line(written)
 
 
 def _cells(cells: Labels) -> list[str] | list[int]:

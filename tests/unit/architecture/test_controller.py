@@ -92,6 +92,34 @@ def test_the_digest_is_of_the_content_not_of_how_it_is_written_or_called():
         assert given(changed).digest != digest, new
 
 
+def test_the_digest_is_of_the_world_too_that_gives_cells_and_actions_their_meaning():
+    one = "{inputs: {near: tilt > most}, actions: {go: {x: 1}}, rules: [{otherwise: go}]}"
+    behaviors = f"  one: {one}\nstructure: [one]\n"
+    world = (
+        "constants: {most: 3, least: [1, [2]]}\nenvironment: {sensors: {tilt: x * 2}, dynamics: {x: x + 1}, "
+    )
+    text = small(behaviors).replace("environment: {", world)
+
+    def digest(text):
+        meaning = meaning_of(text)
+        return controller_of(meaning, architecture_of(meaning)).digest
+
+    same = [
+        ("x * 2", "x  *  2"),
+        ("most: 3, least: [1, [2]]", "least: [1, [2]], most: 3"),
+        ("right: x", "right: -x"),
+    ]
+    others = [
+        ("most: 3", "most: 4"),
+        ("[2]", "[5]"),
+        ("x * 2", "x * 3"),
+        ("x: x + 1", "x: x + 2"),
+        ("x: 0", "x: 1"),
+    ]
+    assert all(digest(text.replace(*change)) == digest(text) for change in same)
+    assert len({digest(text), *(digest(text.replace(*change)) for change in others)}) == 1 + len(others)
+
+
 def test_a_dimension_of_many_numbers_is_not_written_out():
     controller = given(
         "  push: {inputs: {n: 'values(floor(x), 0, 900000)'}, actions: {go: {x: 1}}, rules: [{otherwise: go}]}\n"
