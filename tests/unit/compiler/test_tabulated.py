@@ -11,6 +11,7 @@ from bbsd.compiler import compile_meaning
 from bbsd.compiler.tabulated import OUTCOME, STATE, NotTabulated, tabulated
 from bbsd.environments.tables import Transition, table_of
 from bbsd.evaluation import evaluation_keys, returns_of, trace
+from bbsd.evaluation.faults import faulty_meaning, read_fault
 from bbsd.evaluation.scene import starting_values
 from bbsd.expression.node_data import TOP_BIT, Slot
 from bbsd.kernel.streams import fold, uniform, word_of
@@ -168,6 +169,23 @@ def test_a_problem_by_a_table_stays_one_with_another_meaning_and_has_no_stepper(
     assert not again.meaning.episode.outside
     assert again.table is table
     assert problem.with_meaning(problem.meaning).meaning is problem.meaning
+
+
+@pytest.mark.parametrize("kind", ["noise(0.5)", "frozen@5", "lost", "silent", "stuck@5", "dead"])
+def test_faults_are_of_a_problem_by_a_table_too(kind):
+    part = {"silent": "behavior=walk", "stuck@5": "behavior=walk", "dead": "robot=0"}.get(kind, "sensor=seen")
+    perceived = 'sensors: {seen: square, place: "values(round(seen), 0, 15)"}'
+    text = LAKE.replace('sensors: {place: "values(square, 0, 16 - 1)"}', perceived)
+    assert perceived in text
+    meaning, table = with_table(text)
+    problem = compile_meaning(meaning, table=table, compiled=False)
+    faulty = problem.with_meaning(
+        faulty_meaning(problem.meaning, read_fault(f"{part}:{kind}", problem.meaning))
+    )
+    agent, keys = random_agents(problem, 3, 20), evaluation_keys(1, 10)
+
+    assert not faulty.meaning.episode.outside
+    assert np.isfinite(returns_of(faulty, agent, keys, 1)).all()
 
 
 def test_nothing_is_stepped_in_python():

@@ -161,6 +161,17 @@ def test_a_taxi_with_a_fickle_passenger_does_not_keep_to_its_table():
         checked_table(opened(gymnasium.make("Taxi-v4", fickle_passenger=True).unwrapped))
 
 
+def test_an_environment_that_is_made_differently_each_time_has_no_table():
+    maps = iter([["SF", "FG"], ["SH", "FG"]])
+    made = SimpleNamespace(
+        most_steps=None, make=lambda: gymnasium.make("FrozenLake-v1", desc=next(maps)).unwrapped
+    )
+    with pytest.raises(NoTable, match="another table each time it is made"):
+        checked_table(
+            SimpleNamespace(making=made, name="FrozenLake-v1", recipe=SimpleNamespace(seconds=30.0))
+        )
+
+
 def test_an_environment_without_a_table_has_none():
     assert checked_table(opened(gymnasium.make("Blackjack-v1").unwrapped)) is None
 
