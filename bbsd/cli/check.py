@@ -10,8 +10,8 @@ import typer
 
 from bbsd.cli.mistakes import MISTAKE, diagnoses_text
 from bbsd.cli.options import spec_files
-from bbsd.cli.output import has_color, show
-from bbsd.errors import KINDS, Diagnosis, SpecError, describe, did_you_mean, render_json
+from bbsd.cli.output import has_color, show, show_commands
+from bbsd.errors import KINDS, Diagnosis, SpecError, describe, did_you_mean, escape, render_json
 from bbsd.report.numbers import count
 from bbsd.report.plain import json_text
 
@@ -60,7 +60,8 @@ def _check(specs: list[Path], form: MistakeFormat) -> None:
     if form is MistakeFormat.TEXT:
         show("\n".join(_verdict(*result) for result in results))
     else:
-        show(_machine_text([diagnosis for error in errors for diagnosis in error.diagnoses], form))
+        text = _machine_text([diagnosis for error in errors for diagnosis in error.diagnoses], form)
+        (show_commands if form is MistakeFormat.GITHUB else show)(text)
     if errors:
         raise typer.Exit(MISTAKE)
 
@@ -88,9 +89,9 @@ def _size_or_error(spec: Path) -> tuple[str, SpecError | None]:
 
 def _verdict(spec: Path, size: str, error: SpecError | None) -> str:
     if error is None:
-        return f"{spec}: ok ({size})"
+        return f"{escape(str(spec))}: ok ({size})"
     diagnoses = diagnoses_text(error, color=has_color(sys.stdout))
-    return f"{diagnoses}\n\n{count(len(error.diagnoses), 'mistake')} in {spec}"
+    return f"{diagnoses}\n\n{count(len(error.diagnoses), 'mistake')} in {escape(str(spec))}"
 
 
 def _description(code: str) -> str:

@@ -5,7 +5,9 @@ import os
 import sys
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, TextIO
+from typing import TYPE_CHECKING, NoReturn, TextIO, cast
+
+from bbsd.cli.streams import Raw, Steady
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -15,6 +17,12 @@ def show(text: str) -> None:
     """Print a result to standard output."""
     sys.stdout.write(text if text.endswith("\n") or not text else text + "\n")
     sys.stdout.flush()
+
+
+def show_commands(text: str) -> None:
+    """Print commands to what runs a job, such as GitHub's, to standard output."""
+    write = sys.stdout.write_commands if isinstance(sys.stdout, Steady) else sys.stdout.write
+    write(text if text.endswith("\n") or not text else text + "\n")
 
 
 def say(text: str) -> None:
@@ -51,7 +59,8 @@ def error_console() -> "Console":
 def _console(stream: TextIO) -> "Console":
     from rich.console import Console
 
-    return Console(file=stream, highlight=False, soft_wrap=False)
+    drawn_on = Raw(stream) if isinstance(stream, Steady) else stream
+    return Console(file=cast("TextIO", drawn_on), highlight=False, soft_wrap=False)
 
 
 def has_blocks() -> bool:

@@ -10,22 +10,38 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from bbsd.errors import inert
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 
 class Steady(io.TextIOBase):
-    """A text stream that takes everything: after a first failure, of which it keeps the reason, nothing is shown."""
+    """A text stream that takes everything: after a first failure, of which it keeps the reason, nothing is shown.
+
+    What it shows is inert.
+    """
 
     def __init__(self, stream: TextIO) -> None:
         super().__init__()
         self._stream = stream
+        self._begins_line = True
         self.failure: OSError | None = None
 
     def write(self, text: str, /) -> int:
-        """Write a text; characters that the encoding does not have are escaped."""
-        self._try(lambda: self._stream.write(text))
+        """Write a text; characters that steer a terminal, or that the encoding does not have, are escaped."""
+        self.write_raw(inert(text, begins_line=self._begins_line))
         return len(text)
+
+    def write_commands(self, text: str) -> None:
+        """Write lines that are commands to what runs a job."""
+        self.write_raw(inert(text, commands=True))
+
+    def write_raw(self, text: str) -> None:
+        """Write what steers a terminal on purpose."""
+        if text:
+            self._begins_line = text.endswith("\n")
+        self._try(lambda: self._stream.write(text))
 
     def flush(self) -> None:
         """Write what is in the buffer."""
@@ -62,6 +78,36 @@ class Steady(io.TextIOBase):
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, self._stream.fileno())
             os.close(nowhere)
+
+
+class Raw(io.TextIOBase):
+    """The same stream for what draws on a terminal: its texts must be inert before."""
+
+    def __init__(self, stream: Steady) -> None:
+        super().__init__()
+        self._stream = stream
+
+    def write(self, text: str, /) -> int:
+        """Write a text as it is."""
+        self._stream.write_raw(text)
+        return len(text)
+
+    def flush(self) -> None:
+        """Write what is in the buffer."""
+        self._stream.flush()
+
+    def isatty(self) -> bool:
+        """Return whether this is a terminal."""
+        return self._stream.isatty()
+
+    def fileno(self) -> int:
+        """Return the number of the file."""
+        return self._stream.fileno()
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]  # of a writable attribute
+        """The encoding of the stream."""
+        return self._stream.encoding or "utf-8"
 
 
 @contextmanager

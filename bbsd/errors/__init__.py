@@ -2,6 +2,7 @@
 
 from bbsd.errors.catalog import KINDS, describe
 from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
+from bbsd.errors.inert import inert, inert_cell, inert_json
 from bbsd.errors.kind import DiagnosisKind, Severity
 from bbsd.errors.rendering import character_name, escape, render_json, render_text
 from bbsd.errors.suggestion import did_you_mean
@@ -20,6 +21,9 @@ __all__ = [
     "describe",
     "did_you_mean",
     "escape",
+    "inert",
+    "inert_cell",
+    "inert_json",
     "render_json",
     "render_text",
 ]

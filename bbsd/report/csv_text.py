@@ -6,6 +6,7 @@ import csv
 from io import StringIO
 from typing import TYPE_CHECKING
 
+from bbsd.errors import inert_cell
 from bbsd.evaluation.traced import trace_columns
 from bbsd.expression.node_data import Slot
 
@@ -67,4 +68,6 @@ def _long(trace: Trace) -> Iterator[list[object]]:
 
 
 def _text(value: Value) -> object:
+    if isinstance(value, str):
+        return inert_cell(value)
     return str(value).lower() if isinstance(value, bool) else value

@@ -6,6 +6,7 @@ import json
 from math import isfinite
 from typing import TYPE_CHECKING, TypeAlias
 
+from bbsd.errors import inert_json
 from bbsd.report.warnings import disagreement, warnings_of
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ Plain: TypeAlias = "Mapping[str, Plain] | Sequence[Plain] | str | int | float | 
 
 def json_text(plain: Plain) -> str:
     """Return plain data as JSON of several lines, without a line break at the end."""
-    return json.dumps(plain, indent=2, allow_nan=False, ensure_ascii=False)
+    return inert_json(json.dumps(plain, indent=2, allow_nan=False, ensure_ascii=False))
 
 
 def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:

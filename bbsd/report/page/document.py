@@ -11,6 +11,7 @@ from importlib.resources import files
 from string import Template
 from typing import TYPE_CHECKING
 
+from bbsd.errors import escape, inert
 from bbsd.report.page.content import page_plain
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def _document(content: dict[str, Plain]) -> str:
     script = START + "\n".join(_part("templates", name) for name in MODULES) + END
     return Template(_part("templates", "page.html")).substitute(
         policy=_policy([charts, script], [style, charts_style]),
-        title=escape_html(f"{content['name']}: a design by bbsd"),
+        title=escape_html(escape(f"{content['name']}: a design by bbsd")),
         style=style,
         charts_style=charts_style,
         data=json_in_html(content),
@@ -71,8 +72,20 @@ def _document(content: dict[str, Plain]) -> str:
 
 def json_in_html(content: Plain) -> str:
     """Return plain data as JSON in ASCII that can stand in a script element: no markup begins or ends in it."""
-    text = json.dumps(content, allow_nan=False, separators=(",", ":"))
+    text = json.dumps(_inert(content), allow_nan=False, separators=(",", ":"))
     return UNSAFE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+
+
+def _inert(content: Plain) -> Plain:
+    """Return plain data of which no text has characters that steer or hide, as escapes can show them."""
+    match content:
+        case str():
+            return inert(content, commands=True)
+        case dict():
+            return {inert(key, commands=True): _inert(value) for key, value in content.items()}
+        case list() | tuple():
+            return [_inert(value) for value in content]
+    return content
 
 
 def _policy(scripts: list[str], styles: list[str]) -> str:
