@@ -1,4 +1,4 @@
-"""Agents that drive other people's environments: the same episodes as `bbsd evaluate` measures, to the last bit."""
+"""Agents that drive worlds, other people's and our own: what they earn is what is evaluated, to the last bit."""
 
 import gymnasium
 import pytest
@@ -33,3 +33,36 @@ def test_an_agent_in_ones_own_loop_earns_what_is_evaluated(name):
         returns.append(earned)
     assert returns == list(evaluated.each.returns)
     assert len(set(returns)) > (name != "cartpole_hand")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["object_lifting_hand", "forager_hand"])
+def test_agents_in_our_own_worlds_earn_what_is_evaluated(name):
+    path = SPECS / f"{name}.yaml"
+    evaluated = bbsd.evaluate(path, episodes=3, keep_each=True)
+    assert own_returns(path, 3) == list(evaluated.each.returns)
+
+
+@pytest.mark.slow
+def test_an_agent_of_a_design_earns_what_is_evaluated(tmp_path):
+    bbsd.design(SPECS / "object_lifting.yaml", seed=1, out=tmp_path / "run", overrides=["design.budget=5000"])
+    evaluated = bbsd.evaluate(tmp_path / "run", episodes=3, keep_each=True)
+    assert own_returns(tmp_path / "run", 3) == list(evaluated.each.returns)
+
+
+def own_returns(design, episodes):
+    """The returns of episodes in the world of a design, each of whose robots is driven by an agent."""
+    world, team = bbsd.env(design, api="pettingzoo"), bbsd.Agent.team(design, not_finite="count")
+    exchange, returns = world.exchange, []
+    for episode in range(episodes):
+        observed, info = world.reset(seed=episode)[0], {}
+        for agent in team:
+            agent.reset()
+        while world.agents:
+            actions = {
+                name: exchange.choices[agent.act(exchange.named(observed[name])).number]
+                for name, agent in zip(world.agents, team, strict=True)
+            }
+            observed, _, _, _, info = world.step(actions)
+        returns.append(info["robot_0"]["return"])
+    return returns
