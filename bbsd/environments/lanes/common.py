@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from bbsd.environments.lanes.calling import calling
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT, CallWatch
@@ -15,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from contextlib import AbstractContextManager
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from bbsd.environments.spaces.reading import Reader
@@ -56,11 +57,8 @@ class Dealings:
     """How long a call may take."""
 
 
-class Episode(NamedTuple):
-    """Which episode a lane is in."""
-
-    seed: int
-    steps: int
+Row = list[float]
+"""What a lane is filled with: its column of `outside`."""
 
 
 class Lanes:
@@ -69,39 +67,51 @@ class Lanes:
     def __init__(self, dealings: Dealings) -> None:
         self.dealings = dealings
         self._environments: dict[int, Any] = {}
-        self._episodes: dict[int, Episode] = {}
+        self._seeds: dict[int, int] = {}
+        self._steps: dict[int, int] = {}
         self._watch = CallWatch(dealings.seconds)
         self._lane = -1
 
     def reset(self, lanes: Integers, keys: Keys, outside: Floats) -> None:
         """Begin an episode in some lanes, as `bbsd.environments.stepping.Stepper` says."""
         with self._calling():
-            for lane in lanes.tolist():
-                self._lane = lane
-                self._watch.calls += 1
-                episode = self._episodes[lane] = Episode(seed_of(int(keys[lane])), 0)
-                if lane not in self._environments:
-                    self._environments[lane] = self.dealings.make()
-                    self._watch.calls += 1
-                outside[:, lane] = 0.0
-                self._begin(lane, episode.seed, outside)
+            rows = [self._reset_lane(lane, seed_of(int(keys[lane]))) for lane in lanes.tolist()]
+        if rows:
+            outside[:, lanes] = np.array(rows, np.float64).T
 
     def step(self, lanes: Integers, sent: Floats, outside: Floats) -> None:
         """Step some lanes, as `bbsd.environments.stepping.Stepper` says."""
-        most_steps = self.dealings.most_steps
         with self._calling():
-            for lane in lanes.tolist():
-                self._lane = lane
-                self._watch.calls += 1
-                seed, before = self._episodes[lane]
-                self._episodes[lane] = Episode(seed, before + 1)
-                ended = self._advance(lane, sent, outside)
-                outside[-1, lane] = ended or before + 1 == most_steps
+            commands = sent[:, lanes].T.tolist()
+            rows = [
+                self._step_lane(lane, command) for lane, command in zip(lanes.tolist(), commands, strict=True)
+            ]
+        if rows:
+            outside[:, lanes] = np.array(rows, np.float64).T
 
-    def _begin(self, lane: int, seed: int, outside: Floats) -> None:
+    def _reset_lane(self, lane: int, seed: int) -> Row:
+        self._lane, self._seeds[lane], self._steps[lane] = lane, seed, 0
+        self._watch.calls += 1
+        if lane not in self._environments:
+            self._environments[lane] = self.dealings.make()
+            self._watch.calls += 1
+        return self._begin(lane, seed)
+
+    def _step_lane(self, lane: int, command: list[float]) -> Row:
+        self._lane = lane
+        self._watch.calls += 1
+        steps = self._steps[lane] = self._steps[lane] + 1
+        row = self._advance(lane, command)
+        if steps == self.dealings.most_steps:
+            row[-1] = 1.0
+        return row
+
+    def _begin(self, lane: int, seed: int) -> Row:
+        """Begin the episode of a seed in a lane's environment."""
         raise NotImplementedError
 
-    def _advance(self, lane: int, sent: Floats, outside: Floats) -> bool:
+    def _advance(self, lane: int, command: list[float]) -> Row:
+        """Step a lane's environment with what its robots do."""
         raise NotImplementedError
 
     def _calling(self) -> AbstractContextManager[None]:
@@ -109,9 +119,9 @@ class Lanes:
         return calling(self._where, self._watch, self.dealings.actions)
 
     def _where(self) -> str:
-        episode = self._episodes.get(self._lane, Episode(0, 0))
-        what = f"step {episode.steps}" if episode.steps else "the reset"
-        return f"{self.dealings.name}, in {what} of an episode (seed {episode.seed})"
+        steps, seed = self._steps.get(self._lane, 0), self._seeds.get(self._lane, 0)
+        what = f"step {steps}" if steps else "the reset"
+        return f"{self.dealings.name}, in {what} of an episode (seed {seed})"
 
 
 def checked_results(results: Any) -> Any:  # noqa: ANN401 - whatever an environment returns

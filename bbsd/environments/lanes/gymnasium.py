@@ -7,21 +7,18 @@ from typing import TYPE_CHECKING
 from bbsd.environments.lanes.common import Lanes, checked_results, checked_start
 
 if TYPE_CHECKING:
-    from bbsd.environments.lanes.common import Floats
+    from bbsd.environments.lanes.common import Row
 
 
 class GymnasiumLanes(Lanes):
     """Steps an environment with `reset(seed=...)` and `step(action)` in each lane."""
 
-    def _begin(self, lane: int, seed: int, outside: Floats) -> None:
+    def _begin(self, lane: int, seed: int) -> Row:
         observation = checked_start(self._environments[lane].reset(seed=seed))
-        outside[: self.dealings.n_fields, lane] = self.dealings.read(observation)
+        return [*self.dealings.read(observation), 0.0, 0.0]
 
-    def _advance(self, lane: int, sent: Floats, outside: Floats) -> bool:
+    def _advance(self, lane: int, command: list[float]) -> Row:
         dealings = self.dealings
-        action = dealings.send(sent[:, lane].tolist())
-        results = checked_results(self._environments[lane].step(action))
+        results = checked_results(self._environments[lane].step(dealings.send(command)))
         observation, reward, terminated, truncated, _ = results
-        outside[: dealings.n_fields, lane] = dealings.read(observation)
-        outside[dealings.n_fields, lane] = float(reward)
-        return bool(terminated or truncated)
+        return [*dealings.read(observation), float(reward), float(terminated or truncated)]

@@ -8,7 +8,9 @@ from bbsd.environments.lanes.common import Lanes, checked_results, checked_start
 from bbsd.environments.spaces.reading import WrongObservationError
 
 if TYPE_CHECKING:
-    from bbsd.environments.lanes.common import Floats
+    from collections.abc import Sequence
+
+    from bbsd.environments.lanes.common import Dealings, Row
 
 
 class PettingZooLanes(Lanes):
@@ -17,32 +19,36 @@ class PettingZooLanes(Lanes):
     An agent that is done earns 0 from then on, keeps its last observation, and is sent nothing.
     """
 
-    def _begin(self, lane: int, seed: int, outside: Floats) -> None:
-        observations = checked_start(self._environments[lane].reset(seed=seed))
-        for robot, agent in enumerate(self.dealings.agents):
-            if agent not in observations:
-                raise WrongObservationError(f"the agent {agent} has no observation at the start")
-            self._observe(robot, observations[agent], lane, outside)
+    def __init__(self, dealings: Dealings) -> None:
+        super().__init__(dealings)
+        self._observed: dict[int, list[Sequence[float]]] = {}
+        """Of each lane, what each robot observed last."""
 
-    def _advance(self, lane: int, sent: Floats, outside: Floats) -> bool:
+    def _begin(self, lane: int, seed: int) -> Row:
+        observations = checked_start(self._environments[lane].reset(seed=seed))
+        missing = [agent for agent in self.dealings.agents if agent not in observations]
+        if missing:
+            raise WrongObservationError(f"the agent {missing[0]} has no observation at the start")
+        read = self.dealings.read
+        self._observed[lane] = [list(read(observations[agent])) for agent in self.dealings.agents]
+        return self._row(lane, [0.0] * len(self.dealings.agents), ended=False)
+
+    def _advance(self, lane: int, command: list[float]) -> Row:
         dealings, environment = self.dealings, self._environments[lane]
         robots, alive = len(dealings.agents), set(environment.agents)
-        commands = sent[:, lane].tolist()
         actions = {
-            agent: dealings.send(commands[robot::robots])
+            agent: dealings.send(command[robot::robots])
             for robot, agent in enumerate(dealings.agents)
             if agent in alive
         }
-        results = checked_results(environment.step(actions))
-        observations, rewards, *_ = results
-        earned = dealings.n_fields * robots
+        observations, rewards, *_ = checked_results(environment.step(actions))
+        earned = [float(rewards.get(agent, 0.0)) if agent in alive else 0.0 for agent in dealings.agents]
         for robot, agent in enumerate(dealings.agents):
-            outside[earned + robot, lane] = float(rewards.get(agent, 0.0)) if agent in alive else 0.0
             if agent in alive and agent in observations:
-                self._observe(robot, observations[agent], lane, outside)
-        return not environment.agents
+                self._observed[lane][robot] = list(dealings.read(observations[agent]))
+        return self._row(lane, earned, ended=not environment.agents)
 
-    def _observe(self, robot: int, observation: object, lane: int, outside: Floats) -> None:
-        robots = len(self.dealings.agents)
-        end = self.dealings.n_fields * robots
-        outside[robot:end:robots, lane] = self.dealings.read(observation)
+    def _row(self, lane: int, earned: list[float], *, ended: bool) -> Row:
+        """Return what a lane is filled with: each field of all robots, what they earned, whether it is over."""
+        fields = [number for numbers in zip(*self._observed[lane], strict=True) for number in numbers]
+        return [*fields, *earned, float(ended)]

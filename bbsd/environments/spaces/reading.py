@@ -10,14 +10,10 @@ import numpy as np
 from bbsd.environments.spaces.kinds import Box, Discrete, Mapping, MultiDiscrete, Several
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from bbsd.environments.spaces.kinds import Space
     from bbsd.language.outside import Field, ObservationPath
 
-    Floats = npt.NDArray[np.float64]
-
-Reader = Callable[[Any], "Sequence[float] | Floats"]
+Reader = Callable[[Any], Sequence[float]]
 """Returns the numbers of the used fields, in their order; raises WrongObservationError."""
 
 MOST_TABULATED = 100_000
@@ -49,7 +45,7 @@ def flat(space: Space) -> Reader:
                 number for read, part in zip(each, value, strict=True) for number in read(part)
             ]
         case Box(shape) | MultiDiscrete(shape=shape) if shape:
-            return lambda value: _array(value, shape)
+            return lambda value: _numbers(value, shape)
     return lambda value: (float(value),)
 
 
@@ -68,11 +64,12 @@ def _used(fields: Sequence[Field]) -> list[int] | None:
     return None if len(used) == len(fields) else used
 
 
-def _array(value: object, shape: tuple[int, ...]) -> Floats:
-    array = np.asarray(value, np.float64)
+def _numbers(value: object, shape: tuple[int, ...]) -> Sequence[float]:
+    array = value if isinstance(value, np.ndarray) else np.asarray(value, np.float64)
     if array.shape != shape:
         raise WrongObservationError(f"an observation has the shape {array.shape}, not {shape}")
-    return array.ravel()
+    numbers: list[float] = array.ravel().tolist()
+    return numbers
 
 
 def _list_reader(space: Space, used: list[int] | None, sizes: Sequence[int | None]) -> Reader:

@@ -33,6 +33,8 @@ def sender_of(space: Space | None, n_actions: int) -> Sender:
     """
     if space is None:
         return (lambda values: values[0]) if n_actions == 1 else (lambda values: np.array(values, np.float64))
+    if isinstance(space, Discrete):
+        return _whole_sender(space)
     make = _maker(space)
 
     def send(values: Sequence[float]) -> Any:  # noqa: ANN401 - whatever an environment takes
@@ -40,6 +42,19 @@ def sender_of(space: Space | None, n_actions: int) -> Sender:
             if not takes(space, index, value):
                 raise WrongValueError(index, value, taken_text(space, index))
         return make(values)
+
+    return send
+
+
+def _whole_sender(space: Discrete) -> Sender:
+    """Return what makes an action of the one whole number that is sent, as `takes` allows it."""
+    first, end = space.start, space.start + space.n
+
+    def send(values: Sequence[float]) -> int:
+        value = values[0]
+        if first <= value < end and value == (number := int(value)):
+            return number
+        raise WrongValueError(0, value, taken_text(space, 0))
 
     return send
 
