@@ -99,10 +99,12 @@ def test_what_a_user_wrote_is_data_and_no_markup(page):
     assert data["summary"].startswith("</script><script>alert(1)</script><!-- ")
 
 
-def test_json_in_html_has_no_markup():
-    value = "</script> <!-- & \u2028 \u2029 é \ud800"
-    text = json_in_html({"a": value})
-    assert json.loads(text) == {"a": value}
+def test_json_in_html_has_no_markup_and_nothing_that_hides():
+    text = json_in_html({"a": "</script> <!-- & \u2028 \u2029 é \ud800", "b": ["two\nlines", "\u202e"]})
+    assert json.loads(text) == {
+        "a": r"</script> <!-- & \u2028 \u2029 é \ud800",
+        "b": ["two\nlines", r"\u202e"],
+    }
     assert not re.search("[<>&\u2028\u2029]", text)
     assert text.isascii()
 
