@@ -2,21 +2,21 @@
 
 import os
 import sys
-from pathlib import Path
-
-from bbsd.cli import main
 
 
-def forget_current_folder() -> None:
-    """Take away the current folder, which `python -m` has put first of what is searched for modules.
+def run() -> None:
+    """Run the command line, without the current folder in what is searched for modules.
 
-    A stranger's spec may lie there beside a stranger's modules. It stays where bbsd itself is imported from it.
+    `python -m` has put it there, first of all, and a stranger's spec may lie there beside a stranger's modules. It
+    stays where bbsd itself is imported from it.
     """
-    own = str(Path(__file__).parents[1])
-    if not sys.flags.safe_path and sys.path and os.path.realpath(sys.path[0]) != os.path.realpath(own):
+    own = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))  # noqa: PTH120 - pathlib is not imported yet
+    if not sys.flags.safe_path and sys.path and os.path.realpath(sys.path[0]) != own:
         del sys.path[0]
+    from bbsd.cli import main
+
+    main()
 
 
 if __name__ == "__main__":
-    forget_current_folder()
-    main()
+    run()

@@ -373,3 +373,13 @@ def test_26_a_file_that_is_named_by_a_link_is_beside_the_spec_too(planted, tmp_p
     link.symlink_to(planted.folder, target_is_directory=True)
     monkeypatch.syspath_prepend(str(link))
     planted.refuses("evaluate", planted.spec(), "--allow-import", planted.module)
+
+
+@pytest.mark.parametrize("name", ["typer.py", "pydantic.py", "pathlib.py", "numpy/__init__.py"])
+def test_27_nor_is_what_bbsd_itself_needs_looked_for_in_the_current_folder(planted, name):
+    """Where it is run by `python -m`, which would have it so."""
+    planted.plant(name)
+    planted.spec()
+    command = [sys.executable, "-m", "bbsd", "check", "spec.yaml"]
+    done = subprocess.run(command, cwd=planted.folder, capture_output=True, text=True, check=False)
+    assert (done.returncode, planted.mark.exists()) == (0, False), done.stderr
