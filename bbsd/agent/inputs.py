@@ -26,7 +26,7 @@ FEW = 8
 """Cells that a message lists."""
 
 
-class BadInput(UsageError, TypeError):
+class BadInput(UsageError):
     """A value that an agent was given and that is missing, unknown, or of a wrong kind."""
 
 
@@ -71,7 +71,8 @@ class AgentInput:
         return self._number(value)
 
     def _number(self, value: object) -> float:
-        if isinstance(value, bool | str | bytes) or not isinstance(value, SupportsFloat):
+        is_list = getattr(value, "shape", ()) != ()
+        if is_list or isinstance(value, bool | str | bytes) or not isinstance(value, SupportsFloat):
             raise BadInput(f"{self.name}: {value!r} is no number")
         try:
             number = float(value)

@@ -219,6 +219,7 @@ def test_memory_is_kept_and_forgotten():
         ({"height": "2.9"}, "height: '2.9' is no number"),
         ({"height": True}, "height: True is no number"),
         ({"height": [2.9]}, "height: \\[2.9\\] is no number"),
+        ({"height": np.array([2.9])}, "height: array\\(\\[2.9\\]\\) is no number"),
         ({"tilt": float("inf")}, "tilt: inf is not finite"),
         (
             {"place": "low"},

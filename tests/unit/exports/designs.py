@@ -29,7 +29,8 @@ ODD_WORDS = r"""
     actions: {int: {x: 1}, double: {x: 2}}
     rules: [{when: {print: a b}, do: double}, {otherwise: int}]
   command:
-    inputs: {choice: x > 2, int: "values(floor(x), -2, 3)", switch: "cut(x, -1, 2)"}
+    inputs: {choice: x > 2, int: "values(floor(x), -2, 3)", switch: "cut(x, -1, 2)",
+      layer_2: {u: x > 1, v: otherwise}, command: {u: x > 2, v: otherwise}}
     actions: {none: {x: 0}}
     rules: [{when: {int: -1}, do: none}, {otherwise: no action}]
 structure: [switch, command]
