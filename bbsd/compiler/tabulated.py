@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from bbsd.environments.tables import TransitionTable
     from bbsd.language.meaning import Meaning
+    from bbsd.language.models import Spec
     from bbsd.language.outside import Outside
 
     Floats = NDArray[np.float64]
@@ -97,6 +98,14 @@ def _possible_values(meaning: Meaning, slot: Slot) -> set[float] | None:
     return values
 
 
+def _shortened(spec: Spec, most_steps: int | None) -> Spec:
+    """Return a spec whose episodes have the environment's own limit of steps, where that is the lower one."""
+    if most_steps is None or most_steps >= spec.environment.steps:
+        return spec
+    environment = spec.environment.model_copy(update={"steps": most_steps})
+    return spec.model_copy(update={"environment": environment})
+
+
 class _Table:
     """The nodes of a table of transitions in the graph of a meaning."""
 
@@ -115,9 +124,6 @@ class _Table:
         at = self._plus(first_outcome, self._chosen(OUTCOME, table.cumulative, first_outcome))
         then = self._columns.read(table.next_states, at)
         ended = graph.apply("!=", self._columns.read(table.ended, at), graph.number(0))
-        if table.most_steps is not None and table.most_steps < self._meaning.spec.environment.steps:
-            step = graph.leaf("step", None, Kind.NUMBER, Level.STEP)
-            ended = graph.apply("|", ended, graph.apply(">=", step, graph.number(table.most_steps)))
         beginning = self._observed(first)
         given = {
             **self._observed(then),
@@ -134,7 +140,13 @@ class _Table:
             sent=(),
             fractions=frozenset(),
         )
-        return replace(self._meaning, graph=graph, constants=self._columns.constants, episode=episode)
+        return replace(
+            self._meaning,
+            spec=_shortened(self._meaning.spec, table.most_steps),
+            graph=graph,
+            constants=self._columns.constants,
+            episode=episode,
+        )
 
     def _first_state(self) -> Node:
         states, cumulative = self._table.first_states

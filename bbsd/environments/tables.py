@@ -6,7 +6,7 @@ Such an environment has finitely many states, observes its state as one whole nu
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
-MOST_ENTRIES = 1_000_000
-"""Outcomes of a table at most: a kernel reads three numbers for each."""
+MOST_ENTRIES = 200_000
+"""Outcomes of a table at most: a kernel is given up to four numbers for each."""
 TOLERANCE = 1e-9
 """How far a sum of probabilities may be from 1."""
 
@@ -124,6 +124,8 @@ def copied_table(environment: Any) -> TransitionTable:  # noqa: ANN401 - any env
     """
     n_states = _discrete(environment, "observation_space", "observations")
     n_actions = _discrete(environment, "action_space", "actions")
+    if n_states * n_actions > MOST_ENTRIES:
+        raise NoTable(f"it has {n_states} states and {n_actions} actions: too many")
     rows = [
         [
             _merged(_outcomes(environment.P, state, action), state, action, n_states)
@@ -158,18 +160,18 @@ def _discrete(environment: Any, name: str, what: str) -> int:  # noqa: ANN401 - 
     return int(size)
 
 
-def _outcomes(table: Any, state: int, action: int) -> Sequence[Sequence[Any]]:  # noqa: ANN401 - what P holds
+def _outcomes(table: Any, state: int, action: int) -> Iterable[Sequence[Any]]:  # noqa: ANN401 - what P holds
     try:
         outcomes = table[state][action]
     except (KeyError, IndexError, TypeError):
         raise NoTable(f"its table has no action {action} in state {state}") from None
-    if not isinstance(outcomes, Sequence) or not outcomes:
+    if not isinstance(outcomes, Sequence | np.ndarray) or len(outcomes) == 0:
         raise NoTable(f"its table lists no outcomes of action {action} in state {state}")
     return outcomes
 
 
 def _merged(
-    outcomes: Sequence[Sequence[Any]], state: int, action: int, n_states: int
+    outcomes: Iterable[Sequence[Any]], state: int, action: int, n_states: int
 ) -> dict[Transition, float]:
     """Return the probability of each different outcome, in the order of the first of its kind. Raises NoTable."""
     where = f"action {action} in state {state}"

@@ -9,6 +9,7 @@ from bbsd.api.evaluating import NoSingleEpisodes
 from bbsd.api.opening import opened_environment
 from bbsd.evaluation import NotEnumerable
 from bbsd.runs.storage.folder import FolderError
+from experiments.tables import Row, line
 from tests.end_to_end.commands import bbsd
 from tests.unit.tabular import CLIFF, LAKE, TAXI
 
@@ -111,3 +112,13 @@ def test_a_design_is_by_the_table_and_says_so_in_its_folder(tmp_path):
         api.design(
             spec, overrides=["design.budget=5000"], out=found.folder, resume=True, by_table=False, **ALLOWED
         )
+
+
+def test_an_experiment_tells_how_far_designs_are_below_what_is_possible():
+    row = Row(3, mean=-13.13, best=-13.0, fixed=-13.13, seconds=12.0, episodes=880_000)
+
+    assert row.below == pytest.approx(0.01)
+    assert row.below_fixed == 0.0
+    assert line("cliff", row).split() == [
+        "cliff", "3", "-13.1300", "-13.0000", "1.00%", "-13.1300", "0.00%", "880,000", "12"
+    ]  # fmt: skip

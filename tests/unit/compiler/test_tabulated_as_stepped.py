@@ -1,5 +1,7 @@
 """The same agents in the same environment, by its table and stepped in Python: the same returns to the last bit."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,8 @@ from bbsd.evaluation.scene import starting_values
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import meaning_of
 from tests.unit.tabular import CLIFF, ICE, LAKE, TAXI
+
+OTHER_ICE = ICE.replace("earned: earned", "earned: earned, place: square / 7")
 
 
 def opened(meaning):
@@ -47,7 +51,8 @@ def both(text):
     """The same problem by its table, and stepped in Python from the same starts."""
     meaning = meaning_of(text)
     environment = opened(meaning)
-    by_table = compile_meaning(meaning, table=copied_table(environment.make()), compiled=False)
+    table = replace(copied_table(environment.make()), most_steps=environment.making.most_steps)
+    by_table = compile_meaning(meaning, table=table, compiled=False)
     stepper = environment.stepper()
 
     def same_start():
@@ -57,13 +62,13 @@ def both(text):
 
 
 @pytest.mark.parametrize(
-    ("text", "n_agents"),
-    [(TAXI, 10), (CLIFF, 10), (ICE.replace("earned: earned", "earned: earned, place: square / 7"), 10)],
-    ids=["taxi", "cliff", "ice"],
+    "text",
+    [TAXI, CLIFF, OTHER_ICE, OTHER_ICE.replace("steps: 40", "steps: 120")],
+    ids=["taxi", "cliff", "ice", "beyond the limit of 100 steps"],
 )
-def test_the_same_returns_to_the_last_bit(text, n_agents):
+def test_the_same_returns_to_the_last_bit(text):
     by_table, stepped = both(text)
-    agents, keys = random_agents(by_table, 2, n_agents), evaluation_keys(4, 30 // n_agents + 1)
+    agents, keys = random_agents(by_table, 2, 10), evaluation_keys(4, 4)
     ours, theirs = (returns_of(problem, agents, keys, 1) for problem in (by_table, stepped))
 
     assert len(np.unique(ours)) > 1, "else the test shows little"

@@ -100,6 +100,16 @@ def test_an_environment_has_a_table_where_it_has_a_p():
 
 
 def test_a_table_that_is_too_large_is_refused(monkeypatch):
+    monkeypatch.setattr("bbsd.environments.tables.MOST_ENTRIES", 3)
+    with pytest.raises(NoTable, match="2 states, 1 actions and up to 2 outcomes of each: too many"):
+        copied_table(environment([(0.5, 0, 0.0, False), (0.5, 1, 0.0, False)]))
     monkeypatch.setattr("bbsd.environments.tables.MOST_ENTRIES", 1)
-    with pytest.raises(NoTable, match="2 states, 1 actions and up to 1 outcomes of each: too many"):
+    with pytest.raises(NoTable, match="2 states and 1 actions: too many"):
         copied_table(environment())
+
+
+def test_a_table_may_be_of_lists_and_arrays():
+    rows = [[np.array([[0.5, 0, 1.0, 0], [0.5, 1, -1.0, 1]])], [(ENDS,)]]
+    table = copied_table(environment(P=rows))
+
+    assert table.transitions(0, 0) == {Transition(0, 1.0, False): 0.5, Transition(1, -1.0, True): 0.5}
