@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -45,7 +46,7 @@ class Verified:
     """What came of running an export by one tool.
 
     `missing`: it was not there; `failure`: what it said instead of answering. `is_proof`: all joint cells were
-    compared, else all cells of all tables, and a sample of the joint cells.
+    compared, else a sample of them, and all cells of all tables, or of these a sample too.
     """
 
     tool: str
@@ -69,42 +70,53 @@ def verify(exported: Exported, files: Files, runners: Sequence[Runner]) -> list[
     return [_verified(exported, files, runner) for runner in runners]
 
 
-def cells_to_compare(exported: Exported, most: int = MOST_CELLS) -> Cells:
-    """Return all joint cells (n, n_dimensions); where there are more than `most`, those of `_sampled_cells`."""
+def cells_to_compare(exported: Exported, most: int = sys.maxsize) -> Cells:
+    """Return all joint cells (n, n_dimensions); where there are more than `most`, or MOST_CELLS, a sample."""
     sizes, n = exported.controller.sizes, exported.controller.joint_size
-    if n <= most:
+    if n <= min(most, MOST_CELLS):
         return np.indices(sizes).reshape(len(sizes), n).T.copy()
-    return _sampled_cells(exported, min(most, SAMPLE))
+    return _sampled_cells(exported, most)
 
 
-def _sampled_cells(exported: Exported, n: int) -> Cells:
-    """Return n joint cells, and for each cell of each table one in which it decides, if that is found.
+def _sampled_cells(exported: Exported, most: int) -> Cells:
+    """Return drawn joint cells, and for each cell of each table one in which it decides, if that is found.
 
-    The draws depend on the design alone.
+    Where that would be more than about `most`, cells of the tables are drawn too. The draws depend on the design alone.
     """
-    controller, space = exported.controller, joint_space(exported.meaning)
+    controller = exported.controller
     rng = np.random.default_rng(name_word(f"verify {controller.digest}"))
-    parts = [_drawn(controller, n, rng)]
-    behaviors = [*exported.meaning.spec.behaviors]
+    n = min(SAMPLE, max(1, most // 2))
+    parts, left = [_drawn(controller, n, rng)], most - n
+    total = sum(len(layer.table) for layer in controller.layers)
     for layer in controller.layers:
-        part = _in_layer(layer, _drawn(controller, len(layer.table), rng))
-        for _ in range(TRIES):
-            asked = dict(asked_at(space, exported.architecture, part))[behaviors.index(layer.behavior)]
-            if asked.all():
-                break
-            again = _in_layer(layer, _drawn(controller, len(layer.table), rng))
-            part = np.where(asked[:, None], part, again)
-        parts.append(part)
+        places = np.arange(len(layer.table))
+        if total > left:
+            places = np.sort(rng.choice(places, max(1, left * len(places) // total), replace=False))
+        parts.append(_deciding(exported, layer, places, rng))
     return np.concatenate(parts)
+
+
+def _deciding(exported: Exported, layer: Layer, places: NDArray[np.int64], rng: np.random.Generator) -> Cells:
+    """Return for each of some cells of a layer's table a joint cell in which it decides, if that is found."""
+    controller, space = exported.controller, joint_space(exported.meaning)
+    behavior = [*exported.meaning.spec.behaviors].index(layer.behavior)
+    cells = _in_layer(layer, places, _drawn(controller, len(places), rng))
+    for _ in range(TRIES):
+        asked = dict(asked_at(space, exported.architecture, cells))[behavior]
+        if asked.all():
+            break
+        again = _in_layer(layer, places, _drawn(controller, len(places), rng))
+        cells = np.where(asked[:, None], cells, again)
+    return cells
 
 
 def _drawn(controller: Controller, n: int, rng: np.random.Generator) -> Cells:
     return rng.integers(0, np.array(controller.sizes, np.int64), (n, len(controller.sizes)))
 
 
-def _in_layer(layer: Layer, cells: Cells) -> Cells:
-    """Return joint cells changed so that a layer is excited, and the k-th has the k-th cell of its table."""
-    own = np.unravel_index(np.arange(len(cells)), layer.sizes) if layer.sizes else ()
+def _in_layer(layer: Layer, places: NDArray[np.int64], cells: Cells) -> Cells:
+    """Return joint cells changed so that a layer is excited, and each has one of some places of its table."""
+    own = np.unravel_index(places, layer.sizes) if layer.sizes else ()
     for axis, cell in zip(layer.axes, own, strict=True):
         cells[:, axis] = cell
     if layer.excitement is not None and layer.excitement not in layer.axes:
@@ -113,7 +125,7 @@ def _in_layer(layer: Layer, cells: Cells) -> Cells:
 
 
 def _verified(exported: Exported, files: Files, runner: Runner) -> Verified:
-    joint_size, most = exported.controller.joint_size, min(MOST_CELLS, runner.most_cells(exported))
+    joint_size, most = exported.controller.joint_size, runner.most_cells(exported)
     cells = cells_to_compare(exported, most)
     expected = policy_at(joint_space(exported.meaning), exported.architecture, cells)
     missing, failure, answers = False, "", expected[:0]
@@ -132,7 +144,7 @@ def _verified(exported: Exported, files: Files, runner: Runner) -> Verified:
         failure=failure,
         compared=len(cells),
         equal=len(cells) - len(wrong) if ran else 0,
-        is_proof=joint_size <= most,
+        is_proof=joint_size <= min(most, MOST_CELLS),
         joint_size=joint_size,
         first_difference=_difference(exported.controller, cells, expected, answers, int(wrong[0]))
         if len(wrong)
