@@ -7,6 +7,7 @@ import sys
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, packages_distributions, version
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import UsageError
@@ -26,10 +27,22 @@ DIGITS = 16
 
 
 def origin_of(environment: Any, modules: Sequence[str]) -> dict[str, str]:  # noqa: ANN401 - whatever environment
-    """Return the versions of the distributions that modules are from, and a digest of the environment's own file."""
-    tops = dict.fromkeys(module.partition(".")[0] for module in modules)
+    """Return the versions of all distributions that an environment is made of, and a digest of its own file.
+
+    These are what the modules are from, the classes that it inherits from, and what its file imports.
+    """
+    kinds = {type(environment), type(getattr(environment, "unwrapped", environment))}
+    homes = [kind.__module__ for each in kinds for kind in each.__mro__]
+    own = [name for each in kinds for name in _imported_by(sys.modules.get(each.__module__))]
+    tops = sorted({name.partition(".")[0] for name in (*modules, *homes, *own)} - sys.stdlib_module_names)
     versions = {top: found for top in tops if (found := distribution_version(top)) is not None}
     return {**versions, "source": source_digest(environment)}
+
+
+def _imported_by(module: ModuleType | None) -> list[str]:
+    """Return the names of the modules that a module has imported as such."""
+    values = vars(module).values() if module is not None else ()
+    return [value.__name__ for value in values if isinstance(value, ModuleType)]
 
 
 def distribution_version(top: str) -> str | None:
@@ -38,7 +51,7 @@ def distribution_version(top: str) -> str | None:
         return version(top)
     except PackageNotFoundError:
         pass
-    names = packages_distributions().get(top, [])
+    names = sorted(packages_distributions().get(top, []))
     if names:
         return version(names[0])
     said = getattr(sys.modules.get(top), "__version__", None)

@@ -6,6 +6,7 @@ from bbsd.environments.importing.consent import Consent, ImportNotAllowed
 from bbsd.environments.opening import OtherEnvironment, Recipe, open_environment, opened_again, recipe_of
 from bbsd.environments.origin import NotPortable, distribution_version, importable, source_digest
 from bbsd.environments.spaces.misfits import UnfitError
+from bbsd.language.outside import Outside
 from tests.unit.environments.arenas import Box, Discrete, Duet, Field, Line, opened, outside
 
 
@@ -39,6 +40,17 @@ def test_versions_are_those_of_distributions():
         "PyYAML"
     )  # PyYAML has another name than its module
     assert distribution_version("tests") is None
+
+
+def test_so_are_those_of_what_it_inherits_from_and_imports():
+    assert opened("Line").origin.keys() == {
+        "numpy",
+        "source",
+    }  # the standard library and bbsd's tests have none
+    pytest.importorskip("gymnasium")
+    target = Outside("gymnasium", "LunarLander-v3", {}, (), ())
+    lander = open_environment(Recipe(target, 1, Consent(("gymnasium",))))
+    assert lander.origin.keys() == {"Box2D", "gymnasium", "numpy", "source"}
 
 
 @pytest.mark.parametrize(
