@@ -68,7 +68,8 @@ def assert_same(meaning, design, key, generation=1):
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_shipped_designs_do_what_they_do_in_episodes(name):
-    loaded = load(Source.read(SPECS / f"{name}.yaml"), overrides=["environment.steps=30"])
+    steps = 15 if "aggregation" in name else 80
+    loaded = load(Source.read(SPECS / f"{name}.yaml"), overrides=[f"environment.steps={steps}"])
     meaning, generation = loaded.meaning, loaded.spec.design.coevolution.generations
     numbers = set()
     for key in range(3):
