@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import logging
+import math
 import os
 import signal
 import threading
 import time
 from asyncio import CancelledError as AsyncCancelled
 from concurrent.futures import CancelledError, Future
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 from bbsd.engines.engine import WorkerLost
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 
 LOOK = 1.0
 """Seconds between two questions to the scheduler for its workers."""
-CONNECTING = 10.0
-"""Seconds in which a scheduler has to answer."""
+CONNECTING, CLOSING, RETURNING = 10.0, 5.0, 30.0
+"""Seconds in which a scheduler has to answer, a cluster of this machine to end, and to start a worker again."""
 LARGE = "100 GiB"
 """The size of a unit from which on Dask would warn of it: a state is as large as it is."""
 KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
@@ -50,6 +51,15 @@ class NoScheduler(UsageError):
     advice = "see whether it runs and can be reached from here; what was done can be continued with --resume"
 
 
+class NoWorkers(UsageError):
+    """A cluster of this machine whose workers have all ended, and which starts no others."""
+
+    advice = "continue with --resume; fewer --jobs need less memory"
+
+    def __init__(self) -> None:
+        super().__init__("all workers of the cluster on this machine have ended")
+
+
 class NoBbsd(UsageError):
     """Workers that cannot import what a unit needs."""
 
@@ -61,30 +71,30 @@ class DaskEngine:
 
     shares_machine = False
 
-    def __init__(self, client: Any, address: str) -> None:  # noqa: ANN401 - heavy
-        self._client, self._address = client, address
-        self._workers, self._looked = 0, -LOOK
+    def __init__(self, client: Any, address: str, patience: float = math.inf) -> None:  # noqa: ANN401 - heavy
+        """Use a client of the cluster, and wait so many seconds for its first worker, or for new ones."""
+        self._client, self._address, self._patience = client, address, patience
+        self._workers, self._looked, self._seen = 0, -LOOK, time.monotonic()
         self._going: dict[Future[Result], Any] = {}
         self._lock = threading.RLock()  # a signal handler may run in the middle of it
-        self._stopped = False
 
     def capacity(self) -> int:
-        """Return the number of workers, which come and go."""
-        if time.monotonic() - self._looked >= LOOK:
+        """Return the number of workers, which come and go. Raises NoScheduler, NoWorkers."""
+        now = time.monotonic()
+        if now - self._looked >= LOOK:
             try:
                 self._workers = self._client.scheduler_info(n_workers=0)["n_workers"]
             except (OSError, TimeoutError, RuntimeError) as error:
                 raise self._lost() from error
-            self._looked = time.monotonic()
+            self._looked, self._seen = now, now if self._workers else self._seen
+        if now - self._seen > self._patience:
+            raise NoWorkers
         return self._workers
 
     def submit(self, unit: Unit) -> Future[Result]:
         """Let a worker do a unit; Dask itself tries again on another one where a worker is lost."""
         result: Future[Result] = Future()
         with self._lock:
-            if self._stopped:
-                result.set_exception(CancelledError())
-                return result
             going = self._client.submit(do, unit.to_bytes(), pure=False)
             self._going[result] = going
         going.add_done_callback(lambda done: self._pass_on(done, result))
@@ -99,13 +109,11 @@ class DaskEngine:
     def stop(self) -> None:
         """Take back what was submitted; what a worker has begun it ends soon, since a unit takes a few seconds."""
         with self._lock:
-            if self._stopped:
-                return
-            self._stopped = True
-            going = [*self._going.values()]
-        threading.Thread(target=self._client.cancel, args=(going,), daemon=True).start()
-        for result in [*self._going]:
+            going = dict(self._going)
+        for result in going:
             self._settle(result, CancelledError())
+        if going:
+            threading.Thread(target=self._client.cancel, args=([*going.values()],), daemon=True).start()
 
     def _pass_on(self, done: Any, result: Future[Result]) -> None:  # noqa: ANN401 - heavy
         try:
@@ -131,7 +139,7 @@ class DaskEngine:
         if isinstance(error, KilledWorker):
             return WorkerLost(error.allowed_failures + 1)
         if isinstance(error, CancelledError | AsyncCancelled):
-            return CancelledError() if self._stopped else self._lost()
+            return self._lost()
         missing = _missing(error)
         return error if missing is None else NoBbsd(f"a worker of {self._address} cannot import {missing}")
 
@@ -172,7 +180,7 @@ def dask_engine(scheduler: str | None, count: int) -> Iterator[DaskEngine]:
             )
         except (OSError, TimeoutError, ValueError) as error:
             raise NoScheduler(f"no scheduler answers at {escape(address)}: {escape(str(error))}") from None
-        engine = DaskEngine(client, escape(address))
+        engine = DaskEngine(client, escape(address), math.inf if scheduler else RETURNING)
         try:
             yield engine
         finally:
@@ -182,7 +190,7 @@ def dask_engine(scheduler: str | None, count: int) -> Iterator[DaskEngine]:
 @contextmanager
 def _local_cluster(count: int) -> Iterator[Any]:
     """Start so many workers with one thread each, which only this machine can reach."""
-    from distributed import LocalCluster
+    from distributed import LocalCluster, Status
 
     start: Any = LocalCluster  # distributed has no types
     with workers_environment(), no_interrupts():
@@ -194,13 +202,12 @@ def _local_cluster(count: int) -> Iterator[Any]:
             memory_limit=None,
             silence_logs=logging.CRITICAL,
         )
-    with cluster:
-        try:
-            yield cluster
-        finally:
-            for nanny in cluster.workers.values():
-                nanny.auto_restart = False
-                if nanny.pid is not None:
-                    os.kill(
-                        nanny.pid, signal.SIGKILL
-                    )  # closing would wait for a unit that nobody wants any more
+    try:
+        yield cluster
+    finally:
+        for nanny in cluster.workers.values():
+            if nanny.status is Status.running and nanny.pid is not None:
+                nanny.close_gracefully()  # or it would start another one
+                os.kill(nanny.pid, KILL)  # closing would wait for a unit that nobody wants any more
+        with suppress(TimeoutError):
+            cluster.close(timeout=CLOSING)

@@ -1,43 +1,11 @@
-import os
-import signal
-from pathlib import Path
-
 import pytest
 
 from bbsd.engines.carrying import carry_out
 from bbsd.engines.engine import ATTEMPTS, WorkerLost
 from bbsd.engines.local import processes_engine
-from bbsd.engines.units import OtherVersion, Result, Unit
+from bbsd.engines.units import OtherVersion, Unit
 from bbsd.stopping import StopRequest
-
-WORK = f"{__name__}:add"
-
-
-def add(unit):
-    """Add a letter; but end the process where no deaths are named, or for each that left no mark yet."""
-    deaths = unit.order["deaths"]
-    if deaths is None:
-        os.kill(os.getpid(), signal.SIGKILL)
-    for mark in map(Path, deaths["marks"]):
-        if not mark.exists():
-            mark.touch()
-            os.kill(os.getpid(), signal.SIGKILL)
-    return Result({"x": unit.files.get("x", b"") + unit.order["letter"].encode()})
-
-
-class Adding:
-    def __init__(self, letter, deaths):
-        self.order, self.files = {"letter": letter, "deaths": deaths}, {}
-
-    def unit(self):
-        return Unit("adding", WORK, self.order, self.files)
-
-    def take(self, result):
-        self.files = result.files
-        return len(result.files["x"]) == 3
-
-    def write(self):
-        pass
+from tests.unit.engines.engines import WORK, Adding
 
 
 @pytest.mark.slow
