@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.opening import opened_environment, problem_of
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, require_own_world
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -56,6 +56,7 @@ def worth(
     if episodes < 2:
         raise ValueError("the worth of a design needs two episodes at least")
     loaded = load(spec, seed=seed, overrides=overrides)
+    require_own_world(loaded)
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
     design = given_architecture(problem)

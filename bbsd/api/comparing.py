@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, require_own_world
 from bbsd.architecture import HolesLeft, given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -61,6 +61,7 @@ def _earned(design: Design, streams: NDArray[np.uint64]) -> PairedEpisodes:
 
 
 def _design(loaded: Loaded, lanes: int, jobs: int) -> Design:
+    require_own_world(loaded)
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     try:
         return Design(loaded, problem, given_architecture(problem))

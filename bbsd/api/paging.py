@@ -11,7 +11,7 @@ from bbsd.api.appraising import worth
 from bbsd.api.comparing import compare
 from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, require_own_world
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import chosen_episode, trace
@@ -126,6 +126,7 @@ def page(
         NoDesign: a folder that is no run, or a run without an answer.
     """
     loaded = load(design, seed=seed, overrides=overrides)
+    require_own_world(loaded)
     wanted = [ALL, *faults]
     read_faults(wanted, loaded.meaning)
     problem = compile_meaning(loaded.meaning)

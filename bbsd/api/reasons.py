@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.specs import AnySpec, load, require_own_world
 from bbsd.architecture import architecture_of
 from bbsd.errors import UsageError
 from bbsd.explanation.why import Answer, answer_of, described_situation, situation_in
@@ -68,6 +68,7 @@ def why(
         # A described situation needs no compiler.
         from bbsd.api.tracing import episode_number, trace
 
+        require_own_world(loaded)
         number = episode_number(loaded, episode, seed=seed)
         situation = situation_in(trace(loaded, seed=seed, episode=number), step, robot)
     return answer_of(

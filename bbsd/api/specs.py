@@ -36,6 +36,19 @@ def load(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Load
     return load_source(Source.read(design_file(Path(spec))), seed=seed, overrides=overrides)
 
 
+def require_own_world(loaded: Loaded) -> None:
+    """Raise EnvironmentNotImported for a spec whose world is stepped in Python, before its episodes are needed.
+
+    Verbs that run episodes and import nothing call it, since others that they call would import what the user's
+    configuration file allows.
+    """
+    outside = loaded.spec.environment.outside
+    if outside is not None:
+        from bbsd.environments.stepping import not_imported
+
+        raise not_imported(outside)
+
+
 def check(spec: str | Path) -> tuple[Diagnosis, ...]:
     """Return all mistakes of a spec, none if it is correct.
 

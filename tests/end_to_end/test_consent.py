@@ -8,7 +8,6 @@ from itertools import count
 import pytest
 
 import bbsd as verbs
-from bbsd.environments.importing import configuration
 from tests.end_to_end.commands import bbsd
 
 NUMBERS = count(1)
@@ -93,7 +92,7 @@ def planted(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.syspath_prepend("")
     monkeypatch.setenv("BBSD_ALLOW_IMPORT", "*")
-    monkeypatch.setattr(configuration, "configuration_file", lambda: None)
+    monkeypatch.setattr("bbsd.api.opening.configuration_file", lambda: None)
     return Planted(tmp_path)
 
 
@@ -134,8 +133,20 @@ def test_1_what_only_reads_a_spec_imports_nothing(planted, command, code):
 def test_2_commands_that_do_not_import_say_so(planted, words):
     command, *options = words
     err = planted.refuses(command, planted.spec(), *options)
-    assert "was not imported" in err
+    assert "only bbsd design, evaluate and spaces import" in err
     assert "Traceback" not in err
+
+
+@pytest.mark.parametrize("words", COMMANDS_OF_EPISODES, ids=lambda words: " ".join(words[:2]))
+def test_2_not_even_what_the_configuration_allows(planted, monkeypatch, words):
+    path = planted.folder / "own.yaml"
+    path.write_text(f"allow_import: [{planted.module}]\n", encoding="utf-8")
+    path.chmod(0o600)
+    monkeypatch.setattr("bbsd.api.opening.configuration_file", lambda: path)
+    monkeypatch.setattr("bbsd.environments.for_spec.closed_folders", lambda _lineage: ())
+    command, *options = words
+    err = planted.refuses(command, planted.spec(), *options)
+    assert "only bbsd design, evaluate and spaces import" in err
 
 
 def test_3_nor_does_a_comparison(planted):
@@ -246,7 +257,6 @@ def test_14_a_configuration_beside_the_spec_is_not_read(planted, name):
 def test_15_a_configuration_that_others_may_write_allows_nothing(planted, monkeypatch):
     path = planted.folder / "config.yaml"
     path.write_text(f"allow_import: [{planted.module}]\n", encoding="utf-8")
-    monkeypatch.setattr(configuration, "configuration_file", lambda: path)
     monkeypatch.setattr("bbsd.api.opening.configuration_file", lambda: path)
     path.chmod(0o666)
     err = planted.refuses("evaluate", planted.spec(), "--import-from", planted.folder)
