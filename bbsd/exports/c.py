@@ -130,7 +130,8 @@ def _head(writing: Writing) -> Iterator[str]:
     for place, argument in enumerate(example):
         yield f" *         {argument}{');' if place == len(example) - 1 else ','}"
     yield " *"
-    yield " * No floating point, no heap, no state: the same cells always give the same action. */"
+    yield " * It uses no floating point, no heap and no state: the same cells always give"
+    yield " * the same action. */"
 
 
 def _cells(writing: Writing) -> Iterator[str]:
