@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
@@ -37,7 +36,7 @@ def _has_draws(expr: Expr) -> bool:
 def _datum(value: Value) -> Data:
     if isinstance(value, tuple):
         return [_datum(item) for item in value]
-    if not value.literal or not isfinite(value_of(value)):
+    if not value.literal:
         return render(reconstruct(value))
     number = float(value_of(value))
     return int(number) if number.is_integer() and abs(number) < LARGEST_WHOLE else number

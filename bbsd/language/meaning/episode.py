@@ -16,8 +16,8 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
-from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable
-from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable, Value
+from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot
@@ -110,6 +110,7 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
     first = starting_values(names)
     beginning = Moment(names, first, names.graph.number(0), starting=True)
 
+    _report_lengths_by_robot(beginning)
     now = slots_read(first, names)
     decision = decision_at(now, beginning, names)
     kinds = {name: values[0].kind for name, values in first.items()}
@@ -342,6 +343,26 @@ def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
         for name, values in stored.items()
         for robot, value in enumerate(values)
     }
+
+
+def _report_lengths_by_robot(beginning: Moment) -> None:
+    """Report sensors that are lists of other lengths for other robots: all have the same slots."""
+    names = beginning.names
+    for name, sensor in names.spec.environment.sensors.items():
+        if is_partition(sensor) or name in names.unusable:
+            continue
+        shapes = {_shape(beginning.value(name, robot)) for robot in names.robots}
+        if len(shapes) > 1:
+            message, advice = (
+                "this list's length would differ from robot to robot",
+                "let it be the same for all",
+            )
+            names.findings.report(("environment", "sensors", name), "BB127", message, WHOLE, advice)
+
+
+def _shape(value: Value) -> tuple[object, ...]:
+    """Return the lengths of nested lists, () for a single value."""
+    return tuple(map(_shape, value)) if isinstance(value, tuple) else ()
 
 
 def _slots_of_sensors(moment: Moment) -> dict[Slot, Node]:

@@ -11,7 +11,7 @@ from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import KEY
 from bbsd.expression.syntax.text import render
-from bbsd.expression.syntax.tree import Call, Name, Span
+from bbsd.expression.syntax.tree import Call, Expr, Name, Span
 from bbsd.language.meaning.proofs.coverage import covers_everything
 from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
@@ -107,9 +107,13 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
         return None
     number_tree, first_tree, last_tree = tree.arguments
     number = elaboration.whole(number_tree, scope, "what values(...) divides")
-    first = elaboration.static_whole(first_tree, scope, "the first value")
-    last = elaboration.static_whole(last_tree, scope, "the last value")
+    first, last = _ends_of_values(first_tree, last_tree, scope)
     if number.kind is Kind.UNKNOWN or first is None or last is None:
+        return None
+    if scope.robot and (first, last) != _ends_of_values(first_tree, last_tree, scope.at(scope.path, 0)):
+        message = "the cells would differ from robot to robot, and they share one table"
+        advice = "let the first and the last value be the same for all, and what differs be in the number"
+        scope.mistake("BB127", message, tree.span, advice)
         return None
     if not 1 <= last - first < MAX_CELLS:
         scope.mistake(
@@ -119,6 +123,14 @@ def _values(tree: Call, scope: Scope) -> Partition | None:
         )
         return None
     return cells_of_numbers(number, first, last, scope.graph)
+
+
+def _ends_of_values(first: Expr, last: Expr, scope: Scope) -> tuple[int | None, int | None]:
+    """Return the first and the last value that are told apart, None after a mistake."""
+    return (
+        elaboration.static_whole(first, scope, "the first value"),
+        elaboration.static_whole(last, scope, "the last value"),
+    )
 
 
 def cells_of_numbers(number: Node, first: int, last: int, graph: Graph) -> Partition:

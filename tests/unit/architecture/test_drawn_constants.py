@@ -1,9 +1,6 @@
-import math
-
 import pytest
 
 from bbsd.architecture.drawn_constants import drawn_constants
-from bbsd.language.field_types import expression
 from bbsd.text import Source, read, write
 from tests.unit.architecture.designs import meaning_of, shipped
 
@@ -73,11 +70,3 @@ def test_with_a_generation_what_was_drawn_is_written_into_the_expression(text, s
     assert drawn_constants(again) == {}
     for generation in range(1, 9):
         assert vector(again, generation) == vector(meaning, generation)
-
-
-@pytest.mark.parametrize("over", [1, -1, 0])
-def test_numbers_that_cannot_be_written_become_divisions(over):
-    changes, meaning, again = settled_again(with_constants(a=f"{over} / integers(0, 0)"))
-    assert expression(changes["constants", "a"]).text.endswith("/ 0")
-    assert str(vector(again)) == str(vector(meaning))
-    assert not math.isfinite(vector(again)[0])
