@@ -132,6 +132,8 @@ class Scope:
     """What names its draws; None where nothing may be drawn."""
     static: Callable[[Node], float | None] = lambda _: None
     """The function that gives the value of a node if it is the same for the whole run, else None."""
+    size: Callable[[Node], int | None] = lambda _: None
+    """The function that gives how many values a node has, if these are 0, 1, and so on; else None."""
     memo: dict[Hashable, Value] = field(default_factory=dict)
     """Values of definitions at this moment."""
     unseen: dict[Hashable, str] = field(default_factory=dict)
@@ -148,14 +150,16 @@ class Scope:
         """Return this scope with more names, as for an element of a generator."""
         return Scope(
             self.graph, self.names, self.findings, self.robots, self.robot, self.behavior, self.path,
-            {**self.local, **names}, self.before, self.starting, draws, self.static, self.memo, self.unseen,
+            {**self.local, **names}, self.before, self.starting, draws, self.static, self.size, self.memo,
+            self.unseen,
         )  # fmt: skip
 
     def of_robot(self, robot: int) -> Scope:
         """Return this scope for another robot."""
         return Scope(
             self.graph, self.names, self.findings, self.robots, robot, self.behavior, self.path,
-            self.local, self.before, self.starting, self.draws, self.static, self.memo, self.unseen,
+            self.local, self.before, self.starting, self.draws, self.static, self.size, self.memo,
+            self.unseen,
         )  # fmt: skip
 
     def static_value(self, node: Node) -> float | None:

@@ -10,6 +10,7 @@ from bbsd.expression.graph import Graph, Level, Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Definition, Findings, PerRobot, Scope, Shared, Unusable, Value
+from bbsd.language.meaning.outside.exchange import size_of_field
 from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:
@@ -48,6 +49,12 @@ class Names:
         """The robot that a team-level expression is for: the only one, or none."""
         return 0 if len(self.robots) == 1 else None
 
+    def size(self, node: Node) -> int | None:
+        """Return how many values a node has that reads an observation with a size, from 0 on; None for other nodes."""
+        if node.operation not in ("slot", "outside"):
+            return None
+        return size_of_field(self.spec.environment, node.slot.name)
+
     @property
     def step(self) -> Node:
         """The number of the present step."""
@@ -83,6 +90,7 @@ class Names:
             self.findings,
             robots=len(self.robots),
             static=self.constants.static,
+            size=self.size,
             starting=starting,
             before=before,
         )

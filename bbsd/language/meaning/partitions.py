@@ -160,7 +160,7 @@ def _named_cells(
         return None
     if any(node.kind is Kind.UNKNOWN for node in nodes):
         return None
-    if not final and not covers_everything(nodes, scope.graph):
+    if not final and not covers_everything(nodes, scope.graph, scope.size):
         advice = "write the last cell's condition as otherwise"
         whole.at((*path, labels[-1])).mistake(
             "BB032", "these cells do not provably cover everything", expressions[-1].tree.span, advice

@@ -11,7 +11,7 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.operations import COMPARISONS, MIRRORED
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
 MAX_CASES = 4096
 """Combinations of cases to go through."""
@@ -21,12 +21,19 @@ MAX_ATOMS = 300
 """Comparisons of one value: each is computed at every bound and between them."""
 
 
-def covers_everything(conditions: list[Node], graph: Graph) -> bool:
+def covers_everything(
+    conditions: list[Node], graph: Graph, size: Callable[[Node], int | None] = lambda _: None
+) -> bool:
     """Return whether at least one condition provably holds, whatever the values compared in them.
 
     Comparisons of one value with known bounds are decided together, at and between the bounds; of two values, the
     first is below, equal to or above the second; any other truth is free. NaN is no case: it falls into the last
     cell. Where there are too many cases to go through, nothing is proven.
+
+    Args:
+        conditions: truths.
+        graph: the graph that they are from.
+        size: gives how many values a node has that are the whole numbers from 0 on; None for all other nodes.
     """
     any_holds = graph.fold("|", conditions)
     if any_holds.literal:
@@ -37,7 +44,7 @@ def covers_everything(conditions: list[Node], graph: Graph) -> bool:
     for subject, group in _by_subject(node for node in nodes if _is_atom(node)).items():
         if len(group) > MAX_ATOMS:
             return False
-        choices[subject] = _cases(group)
+        choices[subject] = _cases(group, size)
         cases *= len(choices[subject])
         if cases > MAX_CASES:
             return False
@@ -83,17 +90,30 @@ def _subject(atom: Node) -> tuple[int, ...]:
     return tuple(sorted((left.number, right.number)))
 
 
-def _cases(group: list[Node]) -> list[dict[int, bool]]:
+def _cases(group: list[Node], size: Callable[[Node], int | None]) -> list[dict[int, bool]]:
     """Return the truths that atoms about one subject can have together."""
     first = group[0]
     if first.operation not in COMPARISONS:
         return [{first.number: truth} for truth in (False, True)]
     if any(node.literal for node in first.operands):
         bounds = sorted({float(value_of(node)) for atom in group for node in atom.operands if node.literal})
-        between = [low / 2 + high / 2 for low, high in pairwise(bounds)]
-        points = [-inf, *bounds, *between, inf]
+        n_values = next((size(node) for node in first.operands if not node.literal), None)
+        points = _points(bounds) if n_values is None else _whole_points(bounds, n_values)
         return [{atom.number: _truth_at(atom, point) for atom in group} for point in points]
     return [{atom.number: _truth_in_order(atom, order) for atom in group} for order in (-1, 0, 1)]
+
+
+def _points(bounds: Sequence[float]) -> Sequence[float]:
+    """Return every bound, and a number between each and the next, below the first and above the last."""
+    between = [low / 2 + high / 2 for low, high in pairwise(bounds)]
+    return [-inf, *bounds, *between, inf]
+
+
+def _whole_points(bounds: Sequence[float], n_values: int) -> Sequence[float]:
+    """Return of the whole numbers from 0 to below `n_values` those at and beside bounds, and the first and the last."""
+    last = n_values - 1
+    near = {int(bound) + beside for bound in bounds if abs(bound) <= n_values for beside in (-1, 0, 1)}
+    return [float(number) for number in sorted({0, last} | {each for each in near if 0 <= each <= last})]
 
 
 def _truth_at(atom: Node, point: float) -> bool:

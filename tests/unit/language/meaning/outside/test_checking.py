@@ -103,6 +103,16 @@ def test_a_list_of_inputs_takes_what_has_a_size() -> None:
     assert (code, message) == ("BB041", '"angel" is neither sensor nor state; did you mean "angle"?')
 
 
+@pytest.mark.parametrize("block", ["environment: {sensors: {SEEN}}", "behaviors: {act: {inputs: {SEEN}}}"])
+def test_named_cells_may_name_every_value_of_what_has_a_size(block: str) -> None:
+    sizes = "environment: {observation: {x: 2, angle: 3}}"
+    some = "seen: {none: angle == 0, one: angle == 1"
+    for cells, codes in ((f"{some}, two: angle == 2}}", []), (f"{some}}}", ["BB032"])):
+        base: Data = merged(read(Source("base", BASE)).data, read(Source("part", sizes)).data)
+        data: Data = merged(base, read(Source("part", block.replace("SEEN", cells))).data)
+        assert [each.code for each in check(Source("spec.yaml", write(data)))] == codes
+
+
 def test_an_own_value_may_be_called_earned() -> None:
     text = "bbsd: 1\nname: own\nenvironment: {steps: 3, state: {x: 0}, sensors: {earned: x}}\n"
     text += "behaviors: {a: {actions: {b: {x: 1}}}}\nreward: {r: earned}"

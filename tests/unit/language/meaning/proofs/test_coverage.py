@@ -1,3 +1,5 @@
+from collections.abc import Mapping
+
 import pytest
 
 from bbsd.expression import elaboration
@@ -6,11 +8,12 @@ from bbsd.language.meaning.proofs.coverage import covers_everything
 from tests.unit.expression.scopes import scope
 
 
-def covered(*conditions: str) -> bool:
+def covered(*conditions: str, sizes: Mapping[str, int] | None = None) -> bool:
     here = scope()
     nodes = [elaboration.truth(parse(condition), here) for condition in conditions]
     assert not here.findings.mistakes
-    return covers_everything(nodes, here.graph)
+    by_node = {elaboration.number(parse(name), here): size for name, size in (sizes or {}).items()}
+    return covers_everything(nodes, here.graph, by_node.get)
 
 
 @pytest.mark.parametrize(
@@ -32,6 +35,25 @@ def test_conditions_that_leave_no_gap(conditions: tuple[str, ...]) -> None:
 )  # fmt: skip
 def test_conditions_that_may_leave_one(conditions: tuple[str, ...]) -> None:
     assert not covered(*conditions)
+
+
+@pytest.mark.parametrize(
+    "conditions",
+    [("x == 0", "x == 1", "x == 2"), ("x < 0.5", "x > 0.5"), ("x == 0", "0 < x < 2", "x >= 2"), ("x < 3",), ("x > -1",),
+     ("x != 1", "x > 0.5 and x < 1.5"), ("x == 0 or x == 2", "x == 1"), ("x < 1e300",), ("not x == 5",),
+     ("x == 0 and k < 1", "x == 0 and k >= 1", "x > 0")],
+)  # fmt: skip
+def test_conditions_about_three_whole_numbers_that_leave_no_gap(conditions: tuple[str, ...]) -> None:
+    assert covered(*conditions, sizes={"x": 3})
+
+
+@pytest.mark.parametrize(
+    "conditions",
+    [("x == 0", "x == 2"), ("x == 1", "x == 2"), ("x == 0", "x == 1"), ("x < 2",), ("x > 0",), ("x == 5",),
+     ("x > 1e300",), ("x == 0", "x == 1", "k == 2")],
+)  # fmt: skip
+def test_conditions_about_three_whole_numbers_that_leave_one(conditions: tuple[str, ...]) -> None:
+    assert not covered(*conditions, sizes={"x": 3})
 
 
 def test_what_would_take_too_long_to_prove_is_not_held_for_proven() -> None:
