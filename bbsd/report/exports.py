@@ -51,12 +51,18 @@ def _followed_lines(followed: Followed) -> list[str]:
     tool = f"{followed.tool} with sensing"
     if followed.failure:
         return [f"{tool}: not verified: {followed.failure}"]
-    episodes = f"of {followed.episodes} recorded episode{'' if followed.episodes == 1 else 's'}"
-    steps = f"{followed.equal_steps:,} of {followed.steps:,} steps {episodes}"
-    if not followed.episodes:
-        steps = "no recorded episodes, as the environment is stepped in Python"
     situations = (
-        f"{followed.equal_situations:,} of {followed.situations:,} situations at edges of cells and elsewhere"
+        f"{_of(followed.equal_situations, followed.situations)} situations at edges of cells and elsewhere"
     )
-    lines = [f"{tool}: equal in {steps}; {situations} (tested, not proven)"]
+    if followed.episodes:
+        episodes = f"{followed.episodes} recorded episode{'' if followed.episodes == 1 else 's'}"
+        steps = f"{_of(followed.equal_steps, followed.steps)} steps of {episodes}"
+        lines = [f"{tool}: {steps} and {situations} equal (tested, not proven)"]
+    else:
+        why = "no episodes, as the environment is stepped in Python"
+        lines = [f"{tool}: {situations} equal (tested, not proven); {why}"]
     return lines if followed.is_equal else [*lines, f"  where {followed.first_difference}"]
+
+
+def _of(equal: int, compared: int) -> str:
+    return f"{equal:,} of {compared:,}"

@@ -101,8 +101,8 @@ def test_a_header_with_sensing_is_run_beside_the_design(tmp_path):
     assert (code, out) == (0, "")
     _, cells, sensing = err.splitlines()
     assert cells == "gcc: 72 of 72 cells equal"
-    assert sensing.startswith("gcc with sensing: equal in 900 of 900 steps of 1 recorded episode; ")
-    assert sensing.endswith(" situations at edges of cells and elsewhere (tested, not proven)")
+    assert sensing.startswith("gcc with sensing: 900 of 900 steps of 1 recorded episode and ")
+    assert sensing.endswith(" situations at edges of cells and elsewhere equal (tested, not proven)")
     assert "static inline double bbsd_atan(double x)" in (tmp_path / "lift.h").read_text()
 
 
