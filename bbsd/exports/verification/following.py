@@ -59,7 +59,7 @@ def follow(
     # An environment that is stepped in Python is not at hand here.
     episodes = 0 if exported.meaning.episode.outside else episodes
     recorded = list(recorded_steps(exported, driver, episodes))
-    others = other_steps(driver, recorded, exported.controller.digest)
+    others = other_steps(driver, recorded, exported.controller.name)
     rows = [
         *(driver.row(step.situation, Memory.STARTED if step.is_first else Memory.KEPT) for step in recorded),
         *(driver.row(step.situation, Memory.GIVEN) for step in others),

@@ -59,7 +59,7 @@ def recorded_steps(exported: Exported, driver: Driver, episodes: int) -> Iterato
     player, meaning = driver.sensing.player, exported.meaning
     problem = compile_meaning(meaning, compiled=False)
     generation = meaning.spec.design.coevolution.generations
-    stream = name_word(f"verify {exported.controller.digest}")
+    stream = name_word(f"verify {exported.controller.name}")
     for episode in range(episodes):
         key = fold(stream, episode)
         recording = record_episode(problem, exported.architecture, key, generation)
@@ -75,9 +75,9 @@ def recorded_steps(exported: Exported, driver: Driver, episodes: int) -> Iterato
                 kept = answer.kept
 
 
-def other_steps(driver: Driver, recorded: Sequence[Step], digest: str) -> list[Step]:
+def other_steps(driver: Driver, recorded: Sequence[Step], name: str) -> list[Step]:
     """Return steps at the edges of cells, with odd numbers, and drawn ones."""
-    rng = np.random.default_rng(name_word(f"situations {digest}"))
+    rng = np.random.default_rng(name_word(f"situations {name}"))
     drawn = [_drawn(driver, rng) for _ in range(DRAWN)]
     bases = [step.situation for step in recorded[:: max(1, len(recorded) // BASES)]] or drawn[:BASES]
     found = [*_edges(driver, bases), *_odd(driver, bases), *drawn]
