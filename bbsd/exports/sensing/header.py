@@ -106,7 +106,7 @@ class Sensing:
         return "\n".join(lines) + "\n"
 
     def _own_memory(self) -> Iterator[Member]:
-        if self.statements.uses_robot:
+        if self.statements.steps_use_robot:
             robots = len(self.program.needs.robots)
             yield Member("robot", Kind.CELL, comment=f"which one of the team it is, 0 to {robots - 1}")
         if self.statements.counts_steps:
@@ -139,7 +139,9 @@ class Sensing:
         yield "{"
         if self.statements.uses_robot:
             self.program.emitter.used.add("bbsd_clamp_cell")
-            yield f"{INDENT}memory->robot = bbsd_clamp_cell(robot, {len(self.program.needs.robots) - 1});"
+            yield f"{INDENT}robot = bbsd_clamp_cell(robot, {len(self.program.needs.robots) - 1});"
+        if self.statements.steps_use_robot:
+            yield f"{INDENT}memory->robot = robot;"
         if self.statements.counts_steps:
             yield f"{INDENT}memory->step = 0.0;"
         yield from self._constants(self.statements.start)
@@ -169,7 +171,7 @@ class Sensing:
         yield f"static inline enum {prefix}_action {prefix}_step("
         yield f"{INDENT}{f',{chr(10)}{INDENT}'.join(pointers) or 'void'})"
         yield "{"
-        if self.statements.uses_robot:
+        if self.statements.steps_use_robot:
             yield f"{INDENT}const int robot = memory->robot;"
         if self.statements.counts_steps:
             yield f"{INDENT}const double step = (memory->step += 1.0);"

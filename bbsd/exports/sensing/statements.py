@@ -34,6 +34,8 @@ class Statements(NamedTuple):
     step: list[str]
     uses_robot: bool
     """Whether it matters which robot of the team it is."""
+    steps_use_robot: bool
+    """Whether that matters after the start."""
     counts_steps: bool
     """Whether anything depends on the step's number."""
 
@@ -42,7 +44,8 @@ def statements_of(program: Program, writing: Writing) -> Statements:
     """Return the statements that start a robot's memory and that take a step."""
     start, step = _start(program), _step(program, writing)
     in_step = names_in(step)
-    return Statements(start, step, "robot" in in_step | names_in(start), "step" in in_step)
+    uses_robot = "robot" in in_step | names_in(start)
+    return Statements(start, step, uses_robot, "robot" in in_step, "step" in in_step)
 
 
 def names_in(lines: Iterable[str]) -> set[str]:

@@ -1,9 +1,11 @@
 import pytest
 
-from bbsd.exports.exported import Options
-from bbsd.exports.sensing.header import write
+from bbsd.architecture import architecture_of
+from bbsd.exports.exported import Options, exported_design
+from bbsd.exports.sensing.header import sensing_of, write
 from bbsd.exports.verification.compilers import STRICT
 from bbsd.exports.verification.following import FLAGS, follow
+from tests.unit.architecture.designs import meaning_of, small
 from tests.unit.exports.designs import SHIPPED, tool
 from tests.unit.exports.sensing.robots import robots, shipped
 
@@ -70,7 +72,7 @@ def replaced(old, new):
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ("small_tilt = 5.0", "small_tilt = 5.000000000000001"),
+        ("small_tilt = 5.0", "small_tilt = 5.0000000001"),
         ("height[robot] >= goal", "height[robot] > goal"),
         ("1.7320508075688772", "1.7320508075688"),
         ("memory->speed = outputs->speed", "memory->speed = 0.0"),
@@ -91,3 +93,17 @@ def test_a_header_that_does_not_compile_is_told():
     found = followed(shipped("object_lifting_hand"), 1, FLAGS, replaced("const bool reached", "const bool"))
     assert "gcc failed" in found.failure
     assert not found.is_equal
+
+
+def test_robots_that_differ_only_in_how_they_start_are_told_apart_at_the_start_alone():
+    meaning = meaning_of(
+        small(
+            "  go: {inputs: {far: x > 2}, actions: {go: {x: x + 1}}, rules: [{when: {far: false}, do: go}, "
+            "{otherwise: no action}]}\nstructure: [go]\n",
+            robots=3,
+        ).replace("{x: 0}", "{x: robot}")
+    )
+    exported = exported_design(meaning, architecture_of(meaning))
+    found = sensing_of(exported, Options(sensing=True))
+    assert [member.identifier for member in found.members["memory"]] == ["x"]
+    assert_equal(followed(exported, 2))
