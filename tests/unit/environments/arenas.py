@@ -128,6 +128,9 @@ class Following(Line):
 class Elsewhere(Line):
     """Begins in another way in another process."""
 
+    def __init__(self):
+        super().__init__(length=1_000_000_007)  # no two processes' numbers are the same on so long a line
+
     def reset(self, *, seed=None):
         import os
 
