@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bbsd.compiler.details import Detail, traced_columns
+import bbsd
+from bbsd.compiler.details import PHASES, Detail, traced_columns
 from bbsd.compiler.kernels import kernel_source
 from bbsd.compiler.passes.pipeline import run_passes
 from bbsd.compiler.tables import shape_of
@@ -171,3 +172,12 @@ def test_the_source_of_a_spec_whose_world_is_stepped_in_python(golden):
     tables = [shape_of(module) for module in problem.meaning.episode.modules]
     source = kernel_source(problem.meaning, tables, 8, [Detail.CREDIT], in_phases=True)
     golden("compiler/corridor.py", source.partition("\n\n")[2])
+
+
+def test_compile_prints_phases_only_where_python_steps_the_environment(tmp_path):
+    path = tmp_path / "corridor.yaml"
+    path.write_text(CORRIDOR_OUTSIDE, encoding="utf-8")
+    phases = [f"def {name}_{phase}(" for name in ("rollout", "rollout_detailed") for phase in PHASES]
+    assert [each for each in phases if each not in bbsd.compile(path)] == []
+    path.write_text(CORRIDOR_INSIDE, encoding="utf-8")
+    assert [each for each in phases if each in bbsd.compile(path)] == []
