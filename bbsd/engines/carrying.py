@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from concurrent.futures import CancelledError
 from contextlib import suppress
 from queue import Empty, SimpleQueue
@@ -60,22 +61,25 @@ class _Carrying:
         self._engine, self._tasks, self._request = engine, tasks, request
         self._done: SimpleQueue[tuple[Task, Future[Result]]] = SimpleQueue()
         self._going = 0
+        self._again: deque[Task] = deque()
         self._lost: dict[Task, int] = {}
         self._carried = Carried([], {})
 
     def run(self) -> Carried:
         """Do all tasks."""
-        more = True
+        waiting = True
         while True:
-            while more and not self._request.is_made and self._going < self._engine.capacity():
-                task = next(self._tasks, None)
-                more = task is not None
+            room = self._engine.capacity()
+            while waiting and not self._request.is_made and self._going < room:
+                task = self._again.popleft() if self._again else next(self._tasks, None)
+                waiting = task is not None
                 if task is not None:
                     self._submit(task)
-            if not self._going and (not more or self._request.is_made):
+            if not self._going and (not waiting or self._request.is_made):
                 return self._carried
             with suppress(Empty):
                 self._receive(*self._done.get(timeout=PATIENCE))
+            waiting = waiting or bool(self._again)
 
     def _submit(self, task: Task) -> None:
         self._going += 1
@@ -89,19 +93,19 @@ class _Carrying:
             if not finished and not self._request.is_made:
                 self._submit(task)  # the worker goes on while what it did is written
             task.write()
-        except WorkerLost as lost:
-            self._try_again(task, lost.times)
+        except WorkerLost:
+            self._try_again(task)
         except (KeyboardInterrupt, CancelledError):
             self._request.make()
         except BaseException as error:  # noqa: BLE001 - raised by whoever wanted the tasks
             self._carried.failed[task] = error
             self._request.make()
 
-    def _try_again(self, task: Task, times: int) -> None:
+    def _try_again(self, task: Task) -> None:
         if self._request.is_made:
             return
-        self._lost[task] = self._lost.get(task, 0) + times
+        self._lost[task] = self._lost.get(task, 0) + 1
         if self._lost[task] < ATTEMPTS:
-            self._submit(task)
+            self._again.append(task)
         else:
             self._carried.given_up.append(task)

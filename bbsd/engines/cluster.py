@@ -11,7 +11,7 @@ import time
 from asyncio import CancelledError as AsyncCancelled
 from concurrent.futures import CancelledError, Future
 from contextlib import ExitStack, contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bbsd.engines.engine import WorkerLost
 from bbsd.engines.processes import no_interrupts, workers_environment
@@ -19,16 +19,18 @@ from bbsd.engines.units import Result, do
 from bbsd.errors import UsageError, escape
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from bbsd.engines.units import Unit
 
-LOOK = 1.0
+LOOK = 0.5
 """Seconds between two questions to the scheduler for its workers."""
 CONNECTING, CLOSING, RETURNING = 10.0, 5.0, 30.0
 """Seconds in which a scheduler has to answer, a cluster of this machine to end, and to start a worker again."""
 LARGE = "100 GiB"
 """The size of a unit from which on Dask would warn of it: a state is as large as it is."""
+GONE = "tcp://127.0.0.1:0"
+"""The address of no worker; what is sent there is told to be lost at the next look."""
 KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 SETTINGS = {
     "distributed.admin.large-graph-warning-threshold": LARGE,
@@ -66,39 +68,72 @@ class NoBbsd(UsageError):
     advice = "install the same bbsd, with the same extras, where the scheduler and the workers run"
 
 
+class _Going(NamedTuple):
+    """A unit that is going on: Dask's future, and the address of the worker."""
+
+    future: Any
+    worker: str
+
+
 class DaskEngine:
-    """Workers of a Dask cluster that do units; each is to have one thread."""
+    """Workers of a Dask cluster that do units, each of them one at a time.
+
+    Each unit is sent to one worker that has nothing else to do. So of a worker that is lost it is known which unit it
+    did; Dask's own trying again would also blame units that only waited there.
+    """
 
     shares_machine = False
 
     def __init__(self, client: Any, address: str, patience: float = math.inf) -> None:  # noqa: ANN401 - heavy
         """Use a client of the cluster, and wait so many seconds for its first worker, or for new ones."""
         self._client, self._address, self._patience = client, address, patience
-        self._workers, self._looked, self._seen = 0, -LOOK, time.monotonic()
-        self._going: dict[Future[Result], Any] = {}
+        self._workers: dict[str, int] = {}
+        self._looked, self._seen = -LOOK, time.monotonic()
+        self._going: dict[Future[Result], _Going] = {}
+        self._last: dict[str, str] = {}
         self._lock = threading.RLock()  # a signal handler may run in the middle of it
 
     def capacity(self) -> int:
         """Return the number of workers, which come and go. Raises NoScheduler, NoWorkers."""
         now = time.monotonic()
         if now - self._looked >= LOOK:
-            try:
-                self._workers = self._client.scheduler_info(n_workers=0)["n_workers"]
-            except (OSError, TimeoutError, RuntimeError) as error:
-                raise self._lost() from error
+            self._look()
             self._looked, self._seen = now, now if self._workers else self._seen
         if now - self._seen > self._patience:
             raise NoWorkers
-        return self._workers
+        return len(self._workers)
+
+    def _look(self) -> None:
+        """Ask for the workers, and tell the units of those that are gone."""
+        try:
+            self._workers = self._client.nthreads()
+        except (OSError, TimeoutError, RuntimeError) as error:
+            raise self._lost() from error
+        with self._lock:
+            lost = {
+                result: going for result, going in self._going.items() if going.worker not in self._workers
+            }
+        self._take_back(lost, WorkerLost())
 
     def submit(self, unit: Unit) -> Future[Result]:
-        """Let a worker do a unit; Dask itself tries again on another one where a worker is lost."""
+        """Let a worker do a unit, the one that did the last of the same name if it is free."""
         result: Future[Result] = Future()
         with self._lock:
-            going = self._client.submit(do, unit.to_bytes(), pure=False)
-            self._going[result] = going
+            worker = self._last[unit.name] = self._free_worker(unit.name)
+            going = self._client.submit(
+                do, unit.to_bytes(), pure=False, workers=[worker], allow_other_workers=False
+            )
+            self._going[result] = _Going(going, worker)
         going.add_done_callback(lambda done: self._pass_on(done, result))
         return result
+
+    def _free_worker(self, name: str) -> str:
+        """Return the address of a worker with nothing to do, or, where there is none any more, of one that is lost."""
+        busy = {going.worker for going in self._going.values()}
+        last = self._last.get(name, "")
+        if last in self._workers and last not in busy:
+            return last
+        return next((worker for worker in self._workers if worker not in busy), GONE)
 
     def prepare(self, unit: Unit) -> None:
         """Do nothing: workers get ready with their first unit."""
@@ -110,10 +145,15 @@ class DaskEngine:
         """Take back what was submitted; what a worker has begun it ends soon, since a unit takes a few seconds."""
         with self._lock:
             going = dict(self._going)
-        for result in going:
-            self._settle(result, CancelledError())
-        if going:
-            threading.Thread(target=self._client.cancel, args=([*going.values()],), daemon=True).start()
+        self._take_back(going, CancelledError())
+
+    def _take_back(self, units: Mapping[Future[Result], _Going], why: BaseException) -> None:
+        """Let units have ended, and cancel them without waiting for the scheduler."""
+        for result in units:
+            self._settle(result, why)
+        if units:
+            futures = [going.future for going in units.values()]
+            threading.Thread(target=self._client.cancel, args=(futures,), daemon=True).start()
 
     def _pass_on(self, done: Any, result: Future[Result]) -> None:  # noqa: ANN401 - heavy
         try:
@@ -137,7 +177,8 @@ class DaskEngine:
         from distributed import KilledWorker
 
         if isinstance(error, KilledWorker):
-            return WorkerLost(error.allowed_failures + 1)
+            self._looked = -LOOK
+            return WorkerLost()
         if isinstance(error, CancelledError | AsyncCancelled):
             return self._lost()
         missing = _missing(error)

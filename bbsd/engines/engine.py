@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
-    from typing import Self
 
     from bbsd.engines.units import Result, Unit
 
@@ -17,14 +16,6 @@ ATTEMPTS = 4
 class WorkerLost(Exception):
     """A worker that ended while it was doing a unit."""
 
-    def __init__(self, times: int = 1) -> None:
-        super().__init__(f"{times} workers were lost")
-        self.times = times
-        """How many workers the unit lost before this was told."""
-
-    def __reduce__(self) -> tuple[type[Self], tuple[int]]:
-        return type(self), (self.times,)
-
 
 class Engine(Protocol):
     """Workers somewhere, which do units."""
@@ -33,7 +24,10 @@ class Engine(Protocol):
     """Whether workers are processes of this machine, so that this process is one of as many as were wanted."""
 
     def capacity(self) -> int:
-        """Return how many units can be done at the same time now; it may change, and be 0 for a while."""
+        """Return how many units can be done at the same time now; it may change, and be 0 for a while.
+
+        It is asked again and again, so an engine may use it to see whether workers are still there.
+        """
 
     def submit(self, unit: Unit) -> Future[Result]:
         """Let a worker do a unit.

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from bbsd.engines.carrying import carry_out
-from bbsd.engines.engine import ATTEMPTS, WorkerLost
+from bbsd.engines.engine import ATTEMPTS
 from bbsd.engines.units import Result, Unit
 from bbsd.stopping import StopRequest
 from tests.unit.engines.engines import ThreadsEngine
@@ -104,14 +104,6 @@ def test_a_unit_that_loses_four_workers_is_given_up_and_the_others_are_done(requ
     assert tasks[0].written == ["x"]
     assert [task.written[-1] for task in tasks[1:]] == ["xxx"] * 3
     assert [unit.name for unit in engine.units].count("deadly") == 1 + ATTEMPTS
-
-
-def test_an_engine_that_tried_again_itself_says_so(monkeypatch, request_):
-    engine = ThreadsEngine(1, lambda _unit: True)
-    monkeypatch.setattr("tests.unit.engines.engines.WorkerLost", lambda: WorkerLost(ATTEMPTS))
-    task = Counting("deadly", 1)
-    assert carry_out(engine, iter([task]), request_) == ([task], {})
-    assert len(engine.units) == 1
 
 
 def test_after_an_error_nothing_new_is_begun_and_what_comes_back_is_written(request_):

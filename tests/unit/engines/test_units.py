@@ -4,7 +4,6 @@ from hashlib import sha256
 
 import pytest
 
-from bbsd.engines.engine import WorkerLost
 from bbsd.engines.units import VERSION, DamagedBytes, OtherVersion, Result, Unit, do
 
 UNIT = Unit(
@@ -68,4 +67,3 @@ def test_a_worker_of_another_version_refuses():
 def test_errors_of_workers_can_be_sent():
     error = pickle.loads(pickle.dumps(OtherVersion("one", "other")))
     assert error.versions == ("one", "other")
-    assert pickle.loads(pickle.dumps(WorkerLost(4))).times == 4
