@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
 
 from bbsd import api
 from bbsd.report.price import price_plain, price_text
+from bbsd.runs.price import price as price_of
+from bbsd.solver.paper.settings import settings_of
+from tests.unit.compiler.twins import CORRIDOR_OUTSIDE, Corridor
+from tests.unit.problems import problem_of
 
 SPEC = Path(__file__).parents[2] / "end_to_end" / "specs" / "thermostat.yaml"
 
@@ -90,3 +94,13 @@ def test_it_is_shown_to_people_and_programs(price):
 def test_a_spec_without_holes_has_no_price():
     with pytest.raises(api.NothingToDesign):
         api.price(Path(__file__).parents[3] / "specs" / "object_lifting_hand.yaml")
+
+
+@pytest.mark.slow
+def test_the_memory_of_all_processes_counts_where_python_steps_the_environment():
+    text = f"{CORRIDOR_OUTSIDE}\ndesign: {{method: hill, budget: 5000}}\n"
+    problem = replace(problem_of(text), stepper=Corridor)
+    settings = settings_of(problem.meaning)
+    alone, both = (price_of(problem, settings, 0, 1, jobs) for jobs in (1, 2))
+    assert both.bytes > 1.5 * alone.bytes
+    assert both.episodes == alone.episodes == 5000
