@@ -7,7 +7,7 @@ starts.
 
 - `tasks.py`: the tasks, and what a design earns in them. `contestants.py`: the methods, the paper's loop, and variants
   of `auto` that lack an ingredient. `cells.py`: a cell, its result, and the file that keeps results.
-- `trial.py` runs a cell; `comparison.py` compares results; `tables.py` shows them.
+- `trial.py` runs a cell, `carrying.py` many with an engine; `comparison.py` compares results; `tables.py` shows them.
 
 Results are lines of a file; what is there already is not run again, so a comparison may be stopped and extended.
 """

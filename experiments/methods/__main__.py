@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from itertools import groupby
-from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bbsd.engines.local import processes_engine
+from experiments.methods.carrying import carried_out
 from experiments.methods.cells import Cell, ResultsFile, missing
 from experiments.methods.contestants import ABLATIONS, ALL, PAPER, RIVALS
 from experiments.methods.tables import page, quantile_table, write_curves
@@ -41,7 +40,9 @@ def arguments(texts: Sequence[str] | None = None) -> argparse.Namespace:
     add("--first", type=int, default=0, metavar="SEED", help="the first seed instead of 0")
     add("--small", action="store_true", help="few tasks, methods and seeds, unless they are named")
     add("--ablations", action="store_true", help="also run variants of auto that lack an ingredient")
-    add("--jobs", type=int, default=1, metavar="N", help="processes")
+    add("--jobs", type=int, default=1, metavar="N", help="processes, or workers of a cluster of this machine")
+    add("--engine", choices=("processes", "dask"), default="processes", help="where cells are run")
+    add("--scheduler", metavar="ADDRESS", help="of a Dask cluster")
     add("--results", type=Path, default=RESULTS, metavar="FILE", help=f"by default {RESULTS}")
     add("--curves", type=Path, metavar="FILE", help="write the best so far against episodes as CSV")
     add("--quantiles", action="store_true", help="also print the quantiles of every task and method")
@@ -69,15 +70,18 @@ def cells_of(options: argparse.Namespace) -> list[Cell]:
     ]
 
 
-def results_of(cells: Sequence[Cell], jobs: int) -> Iterator[Result]:
+def results_of(cells: Sequence[Cell], options: argparse.Namespace) -> Iterator[Result]:
     """Run cells and yield their results, each as soon as it is there."""
-    if jobs == 1:
+    if options.engine == "processes" and options.jobs == 1:
         yield from map(run, cells)
-        return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as processes:
-        for _, of_task in groupby(cells, key=lambda cell: cell.task):
-            for waiting in as_completed([processes.submit(run, cell) for cell in of_task]):
-                yield waiting.result()
+    elif options.engine == "processes":
+        with processes_engine(options.jobs, ["experiments.methods.trial"]) as engine:
+            yield from carried_out(cells, engine)
+    else:
+        from bbsd.engines.cluster import dask_engine
+
+        with dask_engine(options.scheduler, options.jobs) as engine:
+            yield from carried_out(cells, engine)
 
 
 def line(result: Result) -> str:
@@ -102,7 +106,7 @@ def main(texts: Sequence[str] | None = None) -> int:
     results = file.read()
     file.begin()
     todo = [] if options.tables_only else missing(cells, results, digests)
-    for number, result in enumerate(results_of(todo, options.jobs), start=1):
+    for number, result in enumerate(results_of(todo, options), start=1):
         file.add(result)
         results[result.cell] = result
         print(f"{number:>5}/{len(todo)}  {line(result)}", file=sys.stderr, flush=True)

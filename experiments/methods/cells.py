@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -53,6 +53,12 @@ class Result:
         return Cell(self.task, self.method, self.budget, self.seed)
 
 
+def result_of(data: dict[str, Any]) -> Result:
+    """Return a result from the data of its JSON."""
+    curve = tuple((int(episodes), float(mean)) for episodes, mean in data["curve"])
+    return Result(**{**data, "structure": tuple(data["structure"]), "curve": curve})
+
+
 class ResultsFile:
     """A file of results, to which one process writes."""
 
@@ -68,8 +74,7 @@ class ResultsFile:
                     data = json.loads(line)
                 except json.JSONDecodeError:
                     continue
-                curve = tuple((int(episodes), float(mean)) for episodes, mean in data.pop("curve"))
-                result = Result(**{**data, "structure": tuple(data["structure"]), "curve": curve})
+                result = result_of(data)
                 results[result.cell] = result
         return results
 

@@ -10,12 +10,14 @@ from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.solver.methods import auto
 from experiments.methods.__main__ import arguments, cells_of, main
+from experiments.methods.carrying import CellsLost, carried_out
 from experiments.methods.cells import Cell, Result, ResultsFile, missing
 from experiments.methods.comparison import better, improvement, quantiles
 from experiments.methods.contestants import ABLATIONS, method_of
 from experiments.methods.tables import page, quantile_table
 from experiments.methods.tasks import IN_ORDER, Task
 from experiments.methods.trial import run
+from tests.unit.engines.engines import ThreadsEngine
 
 
 def result(task="lake", method="auto", budget=300, seed=0, mean=1.0, **others):
@@ -194,3 +196,25 @@ def test_tables_show_medians_and_who_does_better():
 def test_a_task_that_a_method_cannot_design_leaves_its_place_empty():
     results = [result(), result(method="q", mean=None, reason="too fine")]
     assert "| `lake` | 1.0000 (1.0000) |  |" in page(results, ["lake"], ["auto", "q"])
+
+
+def test_cells_are_run_by_an_engine_as_without(monkeypatch):
+    cells = [Cell("abstract", method, 5_000, 0) for method in ("random", "hill")]
+    found = {result.cell: result for result in carried_out(cells, ThreadsEngine(2))}
+    for cell in cells:
+        alone = run(cell)
+        there = found[cell]
+        assert (there.mean, there.structure, there.curve) == (alone.mean, alone.structure, alone.curve)
+            alone.mean,
+            alone.structure,
+            alone.curve,
+        )
+
+
+def test_a_cell_that_kills_its_workers_is_told_after_the_others():
+    engine = ThreadsEngine(1, lambda unit: unit.order["method"] == "hill")
+    cells = [Cell("abstract", method, 5_000, 0) for method in ("hill", "random")]
+    results = carried_out(cells, engine)
+    assert next(results).method == "random"
+    with pytest.raises(CellsLost, match="abstract hill 5000 0"):
+        next(results)
