@@ -205,10 +205,6 @@ def test_cells_are_run_by_an_engine_as_without(monkeypatch):
         alone = run(cell)
         there = found[cell]
         assert (there.mean, there.structure, there.curve) == (alone.mean, alone.structure, alone.curve)
-            alone.mean,
-            alone.structure,
-            alone.curve,
-        )
 
 
 def test_a_cell_that_kills_its_workers_is_told_after_the_others():
