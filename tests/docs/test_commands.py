@@ -9,6 +9,8 @@ from bbsd.cli.app import app
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+OTHERS = {"--update-golden", "--nworkers", "--nthreads"}
+"""Options of pytest and of Dask."""
 TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
 
 
@@ -24,4 +26,4 @@ def test_options_that_pages_name_exist():
     known = {option for command in commands for each in command.params for option in each.opts} | {"--help"}
     source = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "experiments").rglob("*.py"))
     known |= set(re.findall(r'"(--[a-z][a-z-]+)"', source))
-    assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", TEXT)) - {"--update-golden"} <= known
+    assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", TEXT)) - OTHERS <= known
