@@ -11,6 +11,7 @@ import time
 from asyncio import CancelledError as AsyncCancelled
 from concurrent.futures import CancelledError, Future
 from contextlib import ExitStack, contextmanager, suppress
+from multiprocessing import resource_tracker
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bbsd.engines.engine import WorkerLost
@@ -234,6 +235,8 @@ def _local_cluster(count: int) -> Iterator[Any]:
     from distributed import LocalCluster, Status
 
     start: Any = LocalCluster  # distributed has no types
+    logging.getLogger("distributed.batched").setLevel(logging.CRITICAL)  # it speaks after the end
+    resource_tracker.ensure_running()  # it would unblock interrupts when it is started with the first worker
     with workers_environment(), no_interrupts():
         cluster = start(
             n_workers=count,

@@ -185,6 +185,26 @@ def test_a_run_that_loses_four_workers_is_reported_the_others_completed_and_the_
     assert files(tmp_path / "run") == long
 
 
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks /proc who is there")
+def test_an_interrupt_of_a_design_on_a_cluster_is_quiet_and_it_can_be_resumed(long, tmp_path):
+    cluster = ("--engine", "dask", "--jobs", 2, "--out", "run", "-q")
+    running = start(SPEC, *LONG, *cluster, cwd=tmp_path)
+    wait_until(both_run(tmp_path / "run"))
+    os.killpg(running.pid, signal.SIGINT)
+    out, err = running.communicate()
+    assert (running.returncode, out) == (130, "")
+    assert [line.partition(";")[0] for line in err.splitlines() if line] == ["stopped"]
+    wait_until(lambda: not members(running.pid))
+    running = start(SPEC, *LONG, *cluster, "--resume", cwd=tmp_path)
+    wait_until(lambda: len(members(running.pid)) > 2)
+    running.kill()
+    assert running.communicate()[0] == ""
+    wait_until(lambda: not members(running.pid))
+    assert ended(SPEC, *LONG, "--out", "run", "-q", "--resume", cwd=tmp_path)[0] == 0
+    assert files(tmp_path / "run") == long
+
+
 def test_nothing_of_the_present_folder_is_executed(long, tmp_path):
     for name in MODULES:
         (tmp_path / f"{name}.py").write_text(f"open('{tmp_path}/executed-{name}', 'w').close()\n")
