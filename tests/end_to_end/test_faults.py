@@ -26,7 +26,7 @@ design:
 """
 PAPER = (
     "design.method=paper", "design.coevolution.generations=2", "design.coevolution.population=4",
-    "design.coevolution.agents=8", "design.learning.episodes=3",
+    "design.coevolution.agents=8", "design.learning.episodes=3", "design.learning.last=3",
 )  # fmt: skip
 RANDOM = ("design.method=random", "design.budget=5000")
 CALLS = ("open", "write", "fsync", "replace")
