@@ -21,8 +21,8 @@ REQUIRED = "BBSD_REQUIRE_BROWSER"
 DESIGNS = {"lifting": "object_lifting_hand", "pursuit": "pursuit_hand", "mobile": "mobile_robot_hand"}
 SNEAKY = "</script><script>window.ran = 1</script><img src=x onerror='window.ran = 1'><!-- {{ }} ${x} `"
 SMALL_RUN = (
-    "design.method=paper", "design.coevolution.generations=4", "design.coevolution.population=6",
-    "design.coevolution.agents=4", "design.learning.episodes=4",
+    "design.method=paper", "design.coevolution.generations=4", "design.coevolution.population=4",
+    "design.coevolution.agents=4", "design.learning.episodes=4", "design.learning.last=4",
 )  # fmt: skip
 
 

@@ -96,6 +96,7 @@ def test_an_arm_of_the_paper_is_designed(path):
         "coevolution.agents=4",
         "coevolution.population=3",
         "learning.episodes=3",
+        "learning.last=3",
     ]
     loaded = bbsd.load(path, overrides=[*(f"design.{each}" for each in small), "environment.steps=5"])
     problem = compile_meaning(loaded.meaning, lanes=4, compiled=False)

@@ -40,11 +40,12 @@ class SameStart(GymnasiumLanes):
         self.keys = keys
         super().reset(lanes, keys, outside)
 
-    def _begin(self, lane, seed, outside):
-        super()._begin(lane, seed, outside)
+    def _begin(self, lane, seed):
+        row = super()._begin(lane, seed)
         start = starting_values(self.by_table, int(self.keys[lane]), self.by_table.constants.vector(1))
         self._environments[lane].s = int(start[STATE])
-        outside[: self.dealings.n_fields, lane] = self.dealings.read(int(start[STATE]))
+        row[: self.dealings.n_fields] = self.dealings.read(int(start[STATE]))
+        return row
 
 
 def both(text):

@@ -349,7 +349,7 @@ def test_loops_change_no_bit_of_larger_specs(text):
 )
 def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, generation, looked_at):
     meaning, _ = elaborate(Spec.model_validate(data), seed)
-    assume(meaning.spec.environment.robots > 1)
+    assume(meaning is not None and meaning.spec.environment.robots > 1)  # None: a division by zero
     problem = compile_meaning(meaning, lanes=lanes, compiled=False)
     written_out = bits(with_loops(problem, 100), 3, seed, generation)
     with pytest.MonkeyPatch.context() as patch:
