@@ -78,6 +78,19 @@ def move(source: Path, target: Path) -> None:
         os.replace(source, target)  # noqa: PTH105 - as above
 
 
+def make_folder(path: Path) -> bool:
+    """Make a folder in one that is there, and return True; False if it is there already."""
+    with errors_name(path):
+        try:
+            os.mkdir(path)  # noqa: PTH102 - as above
+        except FileExistsError:
+            if path.is_dir():
+                return False
+            raise
+        sync_folder(path.parent)
+    return True
+
+
 def write_all(descriptor: int, content: bytes) -> None:
     """Write all bytes to a descriptor, in as many calls as it takes."""
     rest = memoryview(content)

@@ -28,6 +28,7 @@ from bbsd.runs.signals import interrupts_request_stop
 from bbsd.runs.storage.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
 from bbsd.runs.storage.identity import Identity, identity
 from bbsd.runs.storage.lock import only_writer
+from bbsd.runs.storage.unused import remove_parts
 from bbsd.runs.storage.visits import write_visits
 from bbsd.runs.visits import unvisited
 from bbsd.solver.budget import automatic_budget
@@ -141,6 +142,9 @@ def design(
     run_identity = identity(loaded, seed, runs, None if opened is None else opened.plain())
     folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
     with only_writer(folder):
+        remove_parts(folder.path)
+        if not resume:
+            folder.begin(loaded.lineage.flat.source.text)
         fickle = None if opened is None else _fickle(opened, loaded)
         budgets = _budgets(settings, problem, folder, more, within)
         if not resume or budgets != folder.budgets():
@@ -175,25 +179,26 @@ def design(
                 )
                 for name in rivals
             )
-    seconds = time.monotonic() - started
-    return Designed(
-        folder.architecture,
-        folder.path,
-        settings.method,
-        names,
-        judged.evaluation,
-        judged.lifetime,
-        judged.random,
-        seconds,
-        judged.selection,
-        spent(command),
-        each_run(command, answers) if runs > 1 else (),
-        others,
-        _first_reward(folder, judged.selection),
-        missed,
-        joint_policy_returns(command),
-        fickle or "",
-    )
+        # What follows reads the runs again, and mends them where it must: nobody else may write yet.
+        seconds = time.monotonic() - started
+        return Designed(
+            folder.architecture,
+            folder.path,
+            settings.method,
+            names,
+            judged.evaluation,
+            judged.lifetime,
+            judged.random,
+            seconds,
+            judged.selection,
+            spent(command),
+            each_run(command, answers) if runs > 1 else (),
+            others,
+            _first_reward(folder, judged.selection),
+            missed,
+            joint_policy_returns(command),
+            fickle or "",
+        )
 
 
 def _fickle(opened: Opened, loaded: Loaded) -> str:
@@ -330,9 +335,7 @@ def _run_folder(loaded: Loaded, run_identity: Identity, out: Path | None, *, res
     name = Path(loaded.source.file).stem
     if resume:
         return folder_to_resume(out, name, run_identity)
-    folder = new_folder(out, name, run_identity.seed)
-    folder.copy_spec(loaded.lineage.flat.source.text)
-    return folder
+    return new_folder(out, name, run_identity.seed)
 
 
 def _metrics_listener(

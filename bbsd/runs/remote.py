@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from bbsd.engines.units import Unit
@@ -74,7 +75,7 @@ class RemoteRun:
             self._sizes[name] = self._sizes.get(name, 0) + len(text)
         self._lines += self._texts.get(METRICS, b"").count(b"\n")
         if result.finished:
-            self.answer = self._command.restored(self.run, self._arrays()).answer
+            self.answer = self._command.restored(self.run, self._arrays(self._state)).answer
         return result.finished
 
     def write(self) -> None:
@@ -82,7 +83,8 @@ class RemoteRun:
         if not self._texts and self.answer is None:
             return
         interval = 0.0 if self.answer else max(INTERVAL, self._side_by_side() / SAVED)
-        self._journal.add_texts(self._texts, self._arrays, interval)
+        # The next portion's state comes before what it adds to the files: what is saved is the one of now.
+        self._journal.add_texts(self._texts, partial(self._arrays, self._state), interval)
         for line in self._texts.get(METRICS, b"").splitlines():
             self._listener(json.loads(line))
 
@@ -90,8 +92,8 @@ class RemoteRun:
         """Save the last state, where it is not saved already."""
         self._journal.save()
 
-    def _arrays(self) -> Arrays:
-        return checkpoint.unpacked(self._state or b"", self._command.who, self.name)
+    def _arrays(self, state: bytes | None) -> Arrays:
+        return checkpoint.unpacked(state or b"", self._command.who, self.name)
 
     def _seconds_left(self) -> float | None:
         """Return what is left of the time of the run's rounds, which begins when it is first asked for."""

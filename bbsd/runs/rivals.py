@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from bbsd.files import make_folder
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.joint_policy import joint_policy_returns
 from bbsd.runs.rival_command import PAPER, paper_episodes, rival_command
@@ -52,7 +53,7 @@ def rival(
 ) -> Rival:
     """Spend the budgets of a command on another method, and judge what it finds."""
     other = rival_command(command, method, loaded)
-    other.folder.path.mkdir(exist_ok=True)
+    make_folder(command.folder.below(other.folder.path.name).path)
     try:
         answers = complete_runs(other, jobs, listener, engine)
     except UnsuitableMethod as error:

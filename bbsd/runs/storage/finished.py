@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 ARCHITECTURE, BEST, RUN_FILE = "architecture.yaml", "best.yaml", "run.json"
 """Files of a run: the designed spec, the best so far while there is no answer, and what was run."""
+LOCK = "lock"
+"""The file that its writer holds; it is made before all others."""
 SPEC, VISITS = "spec.yaml", "visits.json"
 """The spec as it was when the design began, and how often the cells of its design were asked."""
 MOST_NAMED = 3

@@ -10,10 +10,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd.files import move, write_text_whole, write_whole
+from bbsd.files import make_folder, move, write_text_whole, write_whole
 from bbsd.runs.storage.census import TABLES
 from bbsd.runs.storage.finished import ARCHITECTURE, BEST, RUN_FILE, SPEC, run_content
 from bbsd.runs.storage.records import METRICS, FolderError, Records
+from bbsd.runs.storage.unused import is_unused
 from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 FORMAT = 3
 """The format of `run.json`."""
-LOCK = "lock"
-"""A file that is made before `run.json`, as the spec is."""
 DIGEST = "architecture_sha256"
 """The key of a result under which the digest of the designed spec stands."""
 
@@ -57,7 +56,17 @@ class Folder:
 
     def records(self, run: int, n_runs: int) -> Records:
         """Return the records of a run, which counts from 0: in the folder itself where it is the only one."""
-        return Records(self.path if n_runs == 1 else self.path / f"run-{run + 1}")
+        return Records(self.path if n_runs == 1 else self.below(f"run-{run + 1}").path)
+
+    def below(self, name: str) -> Folder:
+        """Return the folder of a run or a rival below this one.
+
+        Raises FolderError for a link, which is not followed.
+        """
+        path = self.path / name
+        if path.is_symlink():
+            raise FolderError(f"{path} is a link, which may lead anywhere; remove it to go on")
+        return Folder(path)
 
     def gather(self, n_runs: int) -> None:
         """Write the metrics and the tables of all runs, in their order, into one file each."""
@@ -71,8 +80,15 @@ class Folder:
                 rest = (table.partition(b"\n")[2] for table in tables[1:])
                 write_whole(self.path / name, b"".join([tables[0], *rest]))
 
-    def copy_spec(self, text: str) -> None:
-        """Keep the spec as it is when the design begins."""
+    def begin(self, text: str) -> None:
+        """Keep the spec as it is when the design begins; the folder is locked.
+
+        Raises:
+            FolderError: another design was written into the folder before it was locked.
+        """
+        if not is_unused(self.path):
+            raise FolderError(_not_empty(self.path))
+        self.run_file.unlink(missing_ok=True)  # of a design that ended before its first step was kept
         write_text_whole(self.path / SPEC, text)
 
     def write_architecture(self, text: str) -> None:
@@ -80,14 +96,15 @@ class Folder:
 
         The digest in `run.json` proves that a file is what was written.
         """
-        recorded = self.result().get(DIGEST)
+        recorded, content = self.result().get(DIGEST), text.encode()
         there = self.architecture.read_bytes() if self.architecture.exists() else b""
-        if there and recorded and sha256(there).hexdigest() != recorded:
+        is_cut = content.startswith(there)  # or whole: it was written just before a kill
+        if not is_cut and recorded and sha256(there).hexdigest() != recorded:
             if digest_of(text) == recorded:
                 return
             move(self.architecture, self.path / "architecture.edited.yaml")
-        if there != text.encode():
-            write_text_whole(self.architecture, text)
+        if there != content:
+            write_whole(self.architecture, content)
         self.best.unlink(missing_ok=True)
 
     def write_best(self, text: str) -> Path:
@@ -199,10 +216,8 @@ def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
     try:
         if wanted is None:
             return Folder(next(path for path in _defaults(name, seed) if _make(path)))
-        if not _make(wanted) and not _is_unused(wanted):
-            raise FolderError(
-                f"{wanted} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
-            )
+        if not _make(wanted) and not is_unused(wanted):
+            raise FolderError(_not_empty(wanted))
     except OSError as error:
         raise FolderError(f"{error.filename} cannot be made: {error.strerror}") from None
     return Folder(wanted)
@@ -210,18 +225,16 @@ def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
 
 def _make(path: Path) -> bool:
     """Make a folder and return True, or False if it is there, maybe made by another run just now."""
+    if not path.parent.is_dir():
+        _make(path.parent)
     try:
-        path.mkdir(parents=True)
+        return make_folder(path)
     except FileExistsError:
         return False
-    return True
 
 
-def _is_unused(path: Path) -> bool:
-    """Return whether nothing is in a folder, or only what a design leaves that was killed before it began."""
-    return path.is_dir() and all(
-        file.name in (LOCK, SPEC) or file.name.endswith(".part") for file in path.iterdir()
-    )
+def _not_empty(path: Path) -> str:
+    return f"{path} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
 
 
 def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
@@ -245,7 +258,7 @@ def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
 
 def _other_run(folder: Folder, who: Identity) -> str:
     content = folder.read_run_file()
-    if not folder.run_file.exists() and _is_unused(folder.path):
+    if not folder.run_file.exists() and is_unused(folder.path):
         return f"{folder.path} holds no run of this spec: nothing was begun there; start it without --resume"
     different = f": different are {' and '.join(who.differences(content))}" if "spec" in content else ""
     return f"{folder.path} holds no run of this spec with this seed, these runs and these settings{different}"

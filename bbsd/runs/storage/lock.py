@@ -11,7 +11,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import UsageError
-from bbsd.runs.storage.folder import LOCK
+from bbsd.files import NO_FOLLOW, errors_name, write_all
+from bbsd.runs.storage.finished import LOCK
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,6 +24,8 @@ HELD = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES)
 """The reasons of a refusal when another process has the lock."""
 MOST_BYTES = 1000
 """Bytes of the file that are read: it names one process."""
+LOOKS, BETWEEN_LOOKS = 10, 0.02
+"""How often the file is read until it names a process, and the seconds between."""
 
 
 class FolderInUse(UsageError):
@@ -39,14 +42,17 @@ def only_writer(folder: Folder) -> Iterator[None]:
         FolderInUse: another process holds it; the message names the process.
     """
     path = folder.path / LOCK
-    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o666)
+    with errors_name(path):  # a link would lead to a file that is none of the folder's
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | NO_FOLLOW, 0o666)
     try:
         if not _locked(descriptor):
             raise FolderInUse(f"{folder.path} is being written by {_holder(path)}")
-        os.ftruncate(descriptor, 0)
-        os.write(descriptor, _who().encode())
+        with errors_name(path):
+            os.ftruncate(descriptor, 0)
+            write_all(descriptor, _who().encode())
         yield
-        os.ftruncate(descriptor, 0)
+        with errors_name(path):
+            os.ftruncate(descriptor, 0)
     finally:
         os.close(descriptor)
 
@@ -70,12 +76,20 @@ def _who() -> str:
 
 
 def _holder(path: Path) -> str:
-    """Return who holds a lock, in words."""
+    """Return who holds a lock, in words; a holder that has just come may need a moment to write its name."""
+    for _ in range(LOOKS):
+        if (holder := _named(path)) is not None:
+            return holder
+        time.sleep(BETWEEN_LOOKS)
+    return "another process"
+
+
+def _named(path: Path) -> str | None:
     try:
         with path.open("rb") as file:
             holder: Any = json.loads(file.read(MOST_BYTES))
         return (
             f"process {holder['process']:d} on {str(holder['host'])[:64]}, since {str(holder['since'])[:32]}"
         )
-    except (OSError, ValueError, KeyError, TypeError):
-        return "another process"
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return None

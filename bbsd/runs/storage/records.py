@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.errors import UsageError
-from bbsd.files import NO_FOLLOW, errors_name, move, write_all, write_whole
+from bbsd.files import NO_FOLLOW, errors_name, make_folder, move, write_all, write_whole
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.census import TABLES
 
@@ -87,6 +87,8 @@ class Records:
                 continue
             for name, content in contents.items():
                 self._cut(self.path / name, content)
+            if path == self.previous:  # the next state must not put a damaged one in its place
+                self.checkpoint.unlink(missing_ok=True)
             return reached
         raise FolderError(f"{'; '.join(reasons)}; remove the folder to start again")
 
@@ -188,7 +190,7 @@ class Journal:
     """The records of a run while it goes on: each line is written at once, the state at most once a second."""
 
     def __init__(self, records: Records, who: Identity) -> None:
-        records.path.mkdir(exist_ok=True)
+        make_folder(records.path)
         self._records, self._who = records, who
         self._files: dict[str, _Growing] = {}
         for name in FILES:
@@ -219,22 +221,33 @@ class Journal:
         self, arrays: Callable[[], Arrays], line: dict[str, Any] | None, tables: Iterable[Table] = ()
     ) -> None:
         """Record a step of the run: its line of metrics, rows of tables, and what makes the arrays of its state."""
-        if line is not None:
-            self._files[METRICS].add(line_text(line))
-        for table in tables:
-            file = self._grow(table.file)
-            file.add(table.content(with_columns=file.size == 0))
+        with self._whole_step():
+            if line is not None:
+                self._files[METRICS].add(line_text(line))
+            for table in tables:
+                file = self._grow(table.file)
+                file.add(table.content(with_columns=file.size == 0))
         self._unsaved = arrays
         if time.monotonic() - self._saved_at >= INTERVAL:
             self.save()
 
     def add_texts(self, texts: Mapping[str, bytes], arrays: Callable[[], Arrays], interval: float) -> None:
         """Record several steps as what they add to each file; the state is saved after the interval, in seconds."""
-        for name in sorted(texts):
-            self._grow(name).add(texts[name])
+        with self._whole_step():
+            for name in sorted(texts):
+                self._grow(name).add(texts[name])
         self._unsaved = arrays
         if time.monotonic() - self._saved_at >= interval:
             self.save()
+
+    @contextmanager
+    def _whole_step(self) -> Iterator[None]:
+        """Never save a state beside files that are ahead of it, because a step was written in part."""
+        try:
+            yield
+        except BaseException:
+            self._unsaved = None
+            raise
 
     def sizes(self) -> dict[str, int]:
         """Return the sizes of the files that grow."""
