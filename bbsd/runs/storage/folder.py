@@ -258,6 +258,8 @@ def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
 
 def _other_run(folder: Folder, who: Identity) -> str:
     content = folder.read_run_file()
+    if not folder.path.exists():
+        return f"there is no folder {folder.path}: nothing was begun there; start it without --resume"
     if not folder.run_file.exists() and is_unused(folder.path):
         return f"{folder.path} holds no run of this spec: nothing was begun there; start it without --resume"
     different = f": different are {' and '.join(who.differences(content))}" if "spec" in content else ""
