@@ -76,7 +76,8 @@ def _visits(
     path = Path(spec)
     folder = path if path.is_dir() else path.parent
     if path.is_dir() or path.name == ARCHITECTURE:
-        return read_visits(folder, [*loaded.spec.behaviors])
+        cells = [len(table) for table in architecture.tables]
+        return read_visits(folder, dict(zip(loaded.spec.behaviors, cells, strict=True)))
     return None
 
 

@@ -34,7 +34,9 @@ class Case(NamedTuple):
 
     def __str__(self) -> str:
         states = "each state" if self.interval == 0.0 else "the first state"
-        return f"{self.method}, {self.jobs} jobs, {states} saved{', a further budget' if self.further else ''}"
+        return (
+            f"{self.method}, {self.jobs} jobs, {states} saved{', a further budget' if self.further else ''}"
+        )
 
 
 CASES = (
@@ -77,7 +79,8 @@ class Trial:
         from bbsd.runs import remote
         from bbsd.runs.storage import records
 
-        records.INTERVAL = remote.INTERVAL = self.case.interval
+        for module in (records, remote):
+            vars(module)["INTERVAL"] = self.case.interval
         system.install()
 
     def broken(self, fault: Fault, number: int) -> str:
@@ -132,7 +135,10 @@ def try_calls(
         place.mkdir()
         trial = Trial(case, spec, place)
         kinds = Counter(call.partition(" ")[0] for call in trial.calls)
-        yield f"{case}: {len(trial.calls)} calls ({', '.join(f'{n} {k}' for k, n in sorted(kinds.items()))})", ""
+        yield (
+            f"{case}: {len(trial.calls)} calls ({', '.join(f'{n} {k}' for k, n in sorted(kinds.items()))})",
+            "",
+        )
         for offset, fault in enumerate(FAULTS):
             for number in range(1 + (offset + index) % step, len(trial.calls) + 1, step):
                 name = f"{case}: {fault} at call {number}, {trial.calls[number - 1]}"

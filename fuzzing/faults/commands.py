@@ -8,11 +8,11 @@ import sys
 import tempfile
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from pathlib import Path
 
 SPEC = """bbsd: 1
 name: guess
@@ -82,6 +82,10 @@ class Running:
         with suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
 
+    def is_over(self) -> bool:
+        """Return whether the process has ended."""
+        return os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+
     def ended(self) -> Ended:
         """Wait for the end."""
         _, status = os.waitpid(self.pid, 0)
@@ -137,9 +141,7 @@ def written(out: Path) -> dict[str, bytes]:
 
 def difference(there: dict[str, bytes], expected: dict[str, bytes]) -> str:
     """Return which files are not as they should be, empty where all are."""
-    return ", ".join(
-        name for name in sorted({*there, *expected}) if there.get(name) != expected.get(name)
-    )
+    return ", ".join(name for name in sorted({*there, *expected}) if there.get(name) != expected.get(name))
 
 
 def prepare(folder: Path) -> Path:

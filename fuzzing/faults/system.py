@@ -40,16 +40,16 @@ class System:
             setattr(os, name, self._by_descriptor(name))
         for name in BY_PATH:
             setattr(os, name, self._by_path(name))
-        os.open, os.close = self._open, self._close
+        vars(os).update(open=self._open, close=self._close)
         self._real_stream = io.open
-        io.open = self._stream  # type: ignore[assignment]
+        vars(io)["open"] = self._stream
 
-    def _mine(self, path: object) -> bool:
-        return not isinstance(path, int) and os.fspath(path).startswith(self._root)  # type: ignore[call-overload,no-any-return]
+    def _mine(self, path: Any) -> bool:  # noqa: ANN401
+        return not isinstance(path, int) and os.fspath(path).startswith(self._root)
 
     def _open(self, path: Any, flags: int, *arguments: Any, **options: Any) -> int:  # noqa: ANN401
         if not self._mine(path):
-            return self._real["open"](path, flags, *arguments, **options)  # type: ignore[no-any-return]
+            return int(self._real["open"](path, flags, *arguments, **options))
         size = os.stat(path).st_size if os.path.isfile(path) else 0  # noqa: PTH113, PTH116
         self._called("open" if flags & WRITES else "open to read", str(path))
         descriptor: int = self._real["open"](path, flags, *arguments, **options)
@@ -75,7 +75,11 @@ class System:
             path = self._paths.get(number)
             if path is None:
                 return real(descriptor, *arguments)
-            half = (lambda: real(descriptor, arguments[0][: len(arguments[0]) // 2])) if name == "write" else None
+            half = (
+                (lambda: real(descriptor, arguments[0][: len(arguments[0]) // 2]))
+                if name == "write"
+                else None
+            )
             self._called(name, path, half)
             result = real(descriptor, *arguments)
             if name == "fsync" and path in self._on_disk:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import UsageError
+from bbsd.runs.storage.reading import run_record
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,19 +50,18 @@ def design_file(path: Path) -> Path:
 def run_content(path: Path) -> dict[str, Any]:
     """Return what a run's folder says of the run, empty where that is missing or damaged."""
     try:
-        content = json.loads((path / RUN_FILE).read_text(encoding="utf-8"))
+        return run_record((path / RUN_FILE).read_bytes())
     except (OSError, ValueError):
         return {}
-    return content if isinstance(content, dict) else {}
 
 
 def way_on(path: Path) -> str:
     """Return how a run without an answer is continued, and what there is of it until then."""
     content = run_content(path)
-    runs, overrides = content.get("runs", 1), content.get("set", [])
+    seed, runs, overrides = content.get("seed", 0), content.get("runs", 1), content.get("set", [])
     words = ["bbsd", "design", str(path / SPEC), "--resume", "--out", str(path)]
-    words += ["--seed", str(content.get("seed", 0)), *(["--runs", str(runs)] if runs != 1 else [])]
-    for override in overrides if isinstance(overrides, list) else []:
+    words += ["--seed", str(seed), *(["--runs", str(runs)] if runs != 1 else [])]
+    for override in overrides:
         words += ["--set", str(override)]
     best = path / BEST
     meanwhile = f"; or look at its best design so far, {best}" if best.is_file() else ""

@@ -8,11 +8,12 @@ import os
 import platform
 import time
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
 from bbsd.files import NO_FOLLOW, errors_name, write_all
 from bbsd.runs.storage.finished import LOCK
+from bbsd.runs.storage.reading import plain_data
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -87,9 +88,9 @@ def _holder(path: Path) -> str:
 def _named(path: Path) -> str | None:
     try:
         with path.open("rb") as file:
-            holder: Any = json.loads(file.read(MOST_BYTES))
+            holder = plain_data(file.read(MOST_BYTES))
         return (
             f"process {holder['process']:d} on {str(holder['host'])[:64]}, since {str(holder['since'])[:32]}"
         )
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+    except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -16,6 +16,7 @@ from bbsd.errors import UsageError
 from bbsd.files import NO_FOLLOW, errors_name, make_folder, move, write_all, write_whole
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.census import TABLES
+from bbsd.runs.storage.reading import is_line, plain_data
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -123,9 +124,12 @@ class Records:
             line for line in self.metrics.read_bytes().splitlines(keepends=True) if line.endswith(b"\n")
         ]
         try:
-            return [json.loads(line) for line in complete]
+            lines = [plain_data(line) for line in complete]
         except ValueError:
-            raise FolderError(f"{self.metrics} is damaged; remove the folder to start again") from None
+            lines = [None]
+        if not all(map(is_line, lines)):
+            raise FolderError(f"{self.metrics} is damaged; remove the folder to start again")
+        return lines
 
     def save_over(self, content: bytes) -> None:
         """Put a state in the place of the newest, which becomes the previous one."""

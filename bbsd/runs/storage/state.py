@@ -11,7 +11,10 @@ from bbsd.architecture import Architecture
 from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.runs.storage.checkpoint import CheckpointError
 from bbsd.solver.champions import Champions
+from bbsd.solver.climb import Climb
 from bbsd.solver.methods.method import arrays_of, restored
+from bbsd.solver.methods.society import Society
+from bbsd.solver.paper.culture import Culture
 from bbsd.solver.paper.generation import Census, State
 from bbsd.solver.space import Designs
 from bbsd.solver.structures import OPEN
@@ -104,6 +107,17 @@ def _require_possible(value: object, fresh: object, problem: Problem) -> None:
         _require_pools(value, fresh, problem)
     if isinstance(value, Champions | Designs):
         _require_designs(value.tables, value.structures, problem)
+    if isinstance(value, Champions):
+        _require(value.fitness.shape == value.tables.shape[:1], "the size of the champions' fitness")
+    if isinstance(value, Society):
+        most = np.concatenate([np.full(table.n_cells, table.n_actions) for table in problem.tables])
+        _require(len(value.pools) > 0 and bool(np.all(value.pools <= most)), "the values of a pool")
+    if isinstance(value, Culture):
+        _require(len(value.memes) == len(value.fitness), "the size of the culture")
+        _require_structures(value.memes, problem)
+    if isinstance(value, Climb):
+        sizes = {len(each) for each in (value.running, value.gains, value.squares, value.tried)}
+        _require(len(value.design) == 1 and len(sizes) == 1, "the size of the climb")
     if is_dataclass(value):
         for field in fields(value):
             _require_possible(getattr(value, field.name), getattr(fresh, field.name), problem)
@@ -118,8 +132,6 @@ def _require_pools(state: State, fresh: State, problem: Problem) -> None:
         _require(bool(np.all(pool <= table.n_actions)), "the values of a pool")
     _require(state.fitness.shape == fresh.fitness.shape, "the size of the fitness")
     _require(0 <= state.generation <= problem.meaning.spec.design.coevolution.generations, "the generation")
-    _require(len(state.culture.memes) == len(state.culture.fitness), "the size of the culture")
-    _require_structures(state.culture.memes, problem)
 
 
 def _require_designs(tables: NDArray[Any], structures: NDArray[Any], problem: Problem) -> None:

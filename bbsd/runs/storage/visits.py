@@ -11,6 +11,7 @@ import numpy as np
 from bbsd.architecture.visits import Visits
 from bbsd.files import write_text_whole
 from bbsd.runs.storage.finished import ARCHITECTURE, VISITS
+from bbsd.runs.storage.reading import is_whole, plain_data
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -50,28 +51,41 @@ def _plain(asked: Counts, controlled: Counts) -> dict[str, Any]:
     }
 
 
-def read_visits(folder: Path, names: Sequence[str]) -> Visits | None:
-    """Return the visits of a run's design; None where there are none, or its file was changed since."""
+def read_visits(folder: Path, cells: Mapping[str, int]) -> Visits | None:
+    """Return the visits of a run's design, whose behaviors have so many cells; None where its file is no such thing.
+
+    It is none where it is missing, damaged, or of a design that was changed since.
+    """
     try:
-        content = json.loads((folder / VISITS).read_text(encoding="utf-8"))
+        content = plain_data((folder / VISITS).read_bytes())
         if content["format"] != FORMAT or content[DIGEST] != _digest(folder / ARCHITECTURE):
             return None
-        counts = [_counts(content["behaviors"][name]) for name in names]
+        counts = [_counts(content["behaviors"][name], count) for name, count in cells.items()]
         return Visits(
-            int(content["episodes"]),
-            int(content["robot_steps"]),
+            _count(content["episodes"]),
+            _count(content["robot_steps"]),
             tuple(asked for asked, _ in counts),
             tuple(controlled for _, controlled in counts),
         )
-    except (OSError, ValueError, KeyError, TypeError, IndexError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
 
 
-def _counts(plain: Mapping[str, Any]) -> tuple[Counts, Counts]:
-    asked, controlled = np.zeros((2, int(plain["cells"])), np.int64)
+def _counts(plain: Mapping[str, Any], cells: int) -> tuple[Counts, Counts]:
+    if plain["cells"] != cells:
+        raise ValueError("a behavior has other cells")
+    asked, controlled = np.zeros((2, cells), np.int64)
     for cell, (n_asked, n_controlled) in plain["asked"].items():
-        asked[int(cell)], controlled[int(cell)] = n_asked, n_controlled
+        if not 0 <= int(cell) < cells:
+            raise ValueError("there is no such cell")
+        asked[int(cell)], controlled[int(cell)] = _count(n_asked), _count(n_controlled)
     return asked, controlled
+
+
+def _count(value: object) -> int:
+    if not is_whole(value) or not isinstance(value, int) or value < 0:
+        raise ValueError("it is no count")
+    return value
 
 
 def _digest(path: Path) -> str:

@@ -5,7 +5,6 @@ Whatever is missing, half written or damaged is left out until it can be read.
 
 from __future__ import annotations
 
-import json
 import os
 import platform
 from contextlib import suppress
@@ -13,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from bbsd.runs.storage.finished import RUN_FILE, SPEC, run_content
+from bbsd.runs.storage.reading import is_line, is_whole, plain_data
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,11 +23,12 @@ if TYPE_CHECKING:
 
 State = Literal["waiting", "running", "stopped", "done"]
 METRICS, LOCK = "metrics.jsonl", "lock"
-RIVAL = "rival-"
+RIVAL, RUN = "rival-", "run-"
+MOST_DIGITS = 10
+"""Of a run's number."""
+MOST_PROCESSES = 2**31
 MOST_BYTES = 1000
 """Bytes of a lock's file that are read: it names one process."""
-NEEDED = ("run", "mean", "structure")
-"""Keys without which a line of metrics is none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +82,7 @@ def look(folder: Path) -> Watched:
         folder,
         _state(folder, has_begun=bool(content), has_result=has_result),
         count,
-        sum(each for each in budgets if isinstance(each, int)) if isinstance(budgets, list) else 0,
+        sum(each for each in budgets if is_whole(each)) if isinstance(budgets, list) else 0,
         runs,
         result if isinstance(result, dict) else {},
     )
@@ -103,10 +104,18 @@ def _rivals(folder: Path, n_runs: int) -> Iterator[WatchedRun]:
 
 
 def _runs(folder: Path, n_runs: int, rival: str) -> Iterator[WatchedRun]:
-    for run in range(1, n_runs + 1):
+    for run in (1,) if n_runs == 1 else _begun(folder):
         lines = _lines((folder if n_runs == 1 else folder / f"run-{run}") / METRICS)
         if lines:
             yield WatchedRun(run, rival, lines)
+
+
+def _begun(folder: Path) -> list[int]:
+    """Return the numbers of the runs that have a folder."""
+    names = (path.name.removeprefix(RUN) for path in folder.glob(f"{RUN}*"))
+    return sorted(
+        int(name) for name in names if name.isdecimal() and name.isascii() and len(name) < MOST_DIGITS
+    )
 
 
 def _lines(path: Path) -> tuple[Line, ...]:
@@ -120,10 +129,10 @@ def _lines(path: Path) -> tuple[Line, ...]:
 
 def _read(line: bytes) -> Line:
     try:
-        value = json.loads(line)
+        value = plain_data(line)
     except ValueError:
         return {}
-    return value if isinstance(value, dict) and all(key in value for key in NEEDED) else {}
+    return value if is_line(value) else {}
 
 
 def _state(folder: Path, *, has_begun: bool, has_result: bool) -> State:
@@ -137,7 +146,7 @@ def _writer(folder: Path) -> Line:
     """Return the process that the lock's file names, empty where it names none."""
     try:
         with (folder / LOCK).open("rb") as file:
-            value = json.loads(file.read(MOST_BYTES))
+            value = plain_data(file.read(MOST_BYTES))
     except (OSError, ValueError):
         return {}
     return value if isinstance(value, dict) else {}
@@ -146,8 +155,10 @@ def _writer(folder: Path) -> Line:
 def _is_alive(writer: Line) -> bool:
     """Return whether a process is there, as far as can be told: one on another machine is."""
     process = writer.get("process")
-    if writer.get("host") != platform.node() or not isinstance(process, int) or os.name != "posix":
+    if writer.get("host") != platform.node() or os.name != "posix":
         return True
+    if not isinstance(process, int) or not 0 < process < MOST_PROCESSES:
+        return False
     try:
         os.kill(process, 0)  # signal 0 is none: it asks whether the process is there
     except ProcessLookupError:

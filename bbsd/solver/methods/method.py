@@ -21,6 +21,12 @@ if TYPE_CHECKING:
 
 S = TypeVar("S")
 
+GROWING = frozenset({
+    "tables", "structures", "fitness", "memes", "pools", "running", "gains", "squares", "tried",
+    "tried_tables", "tried_structures",
+})  # fmt: skip
+"""Fields whose arrays may have more or fewer rows than before the first round; all others keep their shapes."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SearchState:
@@ -87,13 +93,20 @@ def restored(template: S, arrays: Arrays, prefix: str = "") -> S:
     """Return a state from its arrays, given one of the same method and problem, such as that before the first round.
 
     Raises:
-        ValueError: an array is missing, or has another type or number of dimensions than the template's.
+        ValueError: an array is missing, or has another type or another shape than the template's; of those that
+            grow, other rows.
     """
     values = {
         field.name: _restored_value(getattr(template, field.name), arrays, f"{prefix}{field.name}")
         for field in fields(template)  # type: ignore[arg-type]
     }
     return replace(template, **values)  # type: ignore[type-var]
+
+
+def _is_member(name: str) -> bool:
+    """Return whether an array is one of several in a field that grows, such as the second of the pools."""
+    stem, _, index = name.rpartition(".")
+    return index.isdecimal() and stem.rpartition(".")[2] in GROWING
 
 
 def _restored_value(template: object, arrays: Arrays, name: str) -> object:
@@ -109,4 +122,7 @@ def _restored_value(template: object, arrays: Arrays, name: str) -> object:
         raise ValueError(
             f"{name} is {array.dtype} in {array.ndim} dimensions, not {expected.dtype} in {expected.ndim}"
         )
+    rows = 1 if name.rpartition(".")[2] in GROWING or _is_member(name) else 0
+    if array.shape[rows:] != expected.shape[rows:]:
+        raise ValueError(f"{name} is of the shape {array.shape}, not {expected.shape}")
     return array if isinstance(template, np.ndarray) else array.item()

@@ -10,6 +10,7 @@ from bbsd.runs.storage.identity import Identity
 from bbsd.version import REVISION, __version__
 
 WHO = Identity((("environment", "a"), ("reward", "b")), 3, 2)
+LINE = {"run": 1, "generation": 1, "mean": 0.5, "structure": ["push"]}
 OTHER = replace(WHO, spec=(("environment", "a"), ("reward", "c")))
 
 
@@ -27,15 +28,15 @@ def test_the_metrics_of_all_runs_are_gathered_in_their_order(folder):
     for run in (1, 0, 2):
         records = folder.records(run, 3)
         records.path.mkdir()
-        records.metrics.write_text(f'{{"run": {run + 1}, "generation": 1}}\n')
+        records.metrics.write_text(json.dumps(LINE | {"run": run + 1}) + "\n")
     folder.gather(3)
     assert [line["run"] for line in folder.lines()] == [1, 2, 3]
 
 
 def test_the_metrics_of_the_only_run_are_left_as_they_are(folder):
-    folder.metrics.write_text('{"run": 1, "generation": 1}\n')
+    folder.metrics.write_text(json.dumps(LINE) + "\n")
     folder.gather(1)
-    assert folder.lines() == [{"run": 1, "generation": 1}]
+    assert folder.lines() == [LINE]
 
 
 def test_a_run_file_says_what_was_run_and_with_what(folder):

@@ -14,6 +14,7 @@ VISITS = Visits(
     (np.array([0, 70, 0]), np.array([40])),
 )
 NAMES, TEXT = ('stop: at "goal"', "push"), "bbsd: 1\n"
+CELLS = dict(zip(NAMES, (3, 1), strict=True))
 
 
 @pytest.fixture
@@ -24,7 +25,7 @@ def folder(tmp_path):
 
 
 def test_what_was_written_is_read(folder):
-    found = read_visits(folder, NAMES)
+    found = read_visits(folder, CELLS)
     assert (found.episodes, found.robot_steps) == (3, 120)
     assert [cells.tolist() for cells in found.asked] == [[0, 70, 2], [40]]
     assert [cells.tolist() for cells in found.controlled] == [[0, 70, 0], [40]]
@@ -41,14 +42,14 @@ def test_the_file_is_small_and_plain(folder):
 
 def test_visits_of_another_design_do_not_count(folder):
     (folder / "architecture.yaml").write_text("bbsd: 1 # edited\n")
-    assert read_visits(folder, NAMES) is None
+    assert read_visits(folder, CELLS) is None
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"format": 1}'])
 def test_a_damaged_file_is_as_none(folder, text):
     (folder / FILE).write_text(text)
-    assert read_visits(folder, NAMES) is None
+    assert read_visits(folder, CELLS) is None
 
 
 def test_a_folder_without_visits_has_none(tmp_path):
-    assert read_visits(tmp_path, NAMES) is None
+    assert read_visits(tmp_path, CELLS) is None
