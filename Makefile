@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 # The peers have one of their own: numba would import what they need in every process that is measured.
 PEERS := .venv-peers
 
-.PHONY: demo test quick lint unit claims worlds optimum tables arms methods fuzz figures bench clean
+.PHONY: demo test quick lint unit claims worlds optimum tables arms methods fuzz faults figures bench clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -54,6 +54,11 @@ methods: $(VENV)/.demo
 # Damaged and heavy specs: fuzzing/.
 fuzz: $(VENV)/.demo
 	$(BIN)/python -m fuzzing --seconds $(or $(SECONDS),60)
+	$(BIN)/python -m fuzzing.folders --seconds $(or $(SECONDS),60)
+
+# Failing and ending calls, kills, damaged checkpoints, races: fuzzing/faults. All of it takes hours, PART some minutes.
+faults: $(VENV)/.demo
+	$(BIN)/python -m fuzzing.faults $(PART) $(OPTIONS)
 
 # The pictures of episodes in README.md and docs/cookbook.md, and of a page where there is a browser.
 QUIETLY := --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \

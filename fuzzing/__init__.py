@@ -5,5 +5,6 @@
   generator, and list it in `DAMAGES`.
 - `heavy_specs.py` makes specs that are large, deep or involved. To add a kind: write a function of a size and a random
   generator, and list it in `KINDS`.
+- `folders.py` damages folders of runs and arguments of `--set`; `faults` lets designs fail and be killed.
 - `trial.py` checks one spec and finds what rule it broke; `__main__.py` tries specs until the time is over.
 """

@@ -67,7 +67,7 @@ def _wrong(ended: list[Ended], pids: list[int], *, is_fresh: bool) -> str:
     """Return what is wrong about how two writers ended: one is complete, the other names it or comes too late."""
     codes = sorted(each.code for each in ended)
     if codes == [0, 0] and not is_fresh:
-        return ""  # the second came when the first had ended
+        return "they did not meet: the second came when the first had ended"
     if codes != [0, 2]:
         return "; ".join(map(str, ended))
     winner = pids[[each.code for each in ended].index(0)]

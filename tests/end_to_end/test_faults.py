@@ -2,6 +2,8 @@
 
 import errno
 import os
+import subprocess
+import sys
 
 import pytest
 
@@ -101,3 +103,22 @@ def test_a_fault_costs_nothing_that_a_resumed_design_does_not_make_good(spec, tm
             assert "start it without --resume" in str(refused)  # noqa: PT017
             design(spec, out, settings, System())
         assert written(out) == expected, f"call {number}"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork processes")
+@pytest.mark.parametrize(
+    "options",
+    [
+        "calls --case 1 --step 40",
+        "calls --case 5 --step 80",
+        "calls --case 8 --step 120",
+        "kills --kills 3",
+        "races --races 1",
+    ],
+)
+def test_a_cut_of_all_faults(options):
+    command = [sys.executable, "-m", "fuzzing.faults", *options.split()]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert " 0 wrong" in ended.stdout

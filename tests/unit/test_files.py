@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from bbsd import files
-from bbsd.files import move, write_text_whole, write_whole
+from bbsd.files import make_folder, move, write_text_whole, write_whole
 
 CALLS = ("open", "write", "fsync", "replace")
 
@@ -98,3 +98,11 @@ def test_an_error_of_a_move_names_the_file(tmp_path):
     with pytest.raises(FileNotFoundError) as error:
         move(tmp_path / "none", tmp_path / "a")
     assert error.value.filename == str(tmp_path / "a")
+
+
+def test_a_folder_is_made_once(tmp_path):
+    assert make_folder(tmp_path / "new")
+    assert not make_folder(tmp_path / "new")
+    (tmp_path / "file").touch()
+    with pytest.raises(FileExistsError, match="file"):
+        make_folder(tmp_path / "file")

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 NUMBER = (int, float)
 LINE: dict[str, tuple[type, ...]] = {
@@ -23,6 +26,11 @@ LINE: dict[str, tuple[type, ...]] = {
 """The types of what a line of metrics has."""
 NEEDED = ("run", "mean", "structure")
 """Keys without which a line of metrics is none."""
+FORMS = (
+    (*NEEDED, "generation", "best", "sd", "lifetime", "diversity"),
+    (*NEEDED, "method", "stage", "episodes", "measured"),
+)
+"""What all lines of a file have: those of generations, or those of a search."""
 RUN: dict[str, tuple[type, ...]] = {
     "bbsd": (str,),
     "revision": (int,),
@@ -66,6 +74,14 @@ def is_line(value: object) -> bool:
         and all(_is_a(value[key], types) for key, types in LINE.items() if key in value)
         and all(isinstance(name, str) for name in value["structure"])
         and all(_is_a(each, NUMBER) for each in value.get("diversity", {}).values())
+    )
+
+
+def are_metrics(values: Sequence[object]) -> bool:
+    """Return whether values are the metrics of a run: lines of generations, or lines of a search."""
+    lines = [value for value in values if isinstance(value, dict) and is_line(value)]
+    return len(lines) == len(values) and (
+        any(all(key in line for line in lines for key in form) for form in FORMS)
     )
 
 

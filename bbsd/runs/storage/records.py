@@ -16,7 +16,7 @@ from bbsd.errors import UsageError
 from bbsd.files import NO_FOLLOW, errors_name, make_folder, move, write_all, write_whole
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.census import TABLES
-from bbsd.runs.storage.reading import is_line, plain_data
+from bbsd.runs.storage.reading import are_metrics, plain_data
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -127,7 +127,7 @@ class Records:
             lines = [plain_data(line) for line in complete]
         except ValueError:
             lines = [None]
-        if not all(map(is_line, lines)):
+        if not are_metrics(lines):
             raise FolderError(f"{self.metrics} is damaged; remove the folder to start again")
         return lines
 

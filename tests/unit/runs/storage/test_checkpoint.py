@@ -181,6 +181,8 @@ def forged(**changed):
         {"state__culture__memes": np.zeros((3, 3), np.int64)},
         {"state__champions__tables": np.zeros((2, 9), np.uint8)},
         {"answer__tables": np.zeros(2, np.uint8), "answer__structure": np.array([2, 1, 0])},
+        {"state__champions__fitness": np.zeros(1)},
+        {"state__culture__fitness": np.zeros(77)},
         {"run": np.array(1)},
     ],
     ids=str,

@@ -10,7 +10,10 @@ from bbsd.runs.storage.identity import Identity
 from bbsd.version import REVISION, __version__
 
 WHO = Identity((("environment", "a"), ("reward", "b")), 3, 2)
-LINE = {"run": 1, "generation": 1, "mean": 0.5, "structure": ["push"]}
+LINE = {
+    "run": 1, "generation": 1, "mean": 0.5, "best": 1.0, "sd": 0.1, "lifetime": 0.4, "diversity": {},
+    "structure": ["push"],
+}  # fmt: skip
 OTHER = replace(WHO, spec=(("environment", "a"), ("reward", "c")))
 
 
@@ -150,6 +153,47 @@ def test_a_designed_spec_that_was_cut_short_is_written_again(folder):
     folder.architecture.touch()
     folder.write_architecture("one\n")
     assert folder.architecture.read_text() == "one\n"
+
+
+def test_a_designed_spec_that_was_cut_in_the_middle_is_written_again(folder):
+    folder.write_run_file(WHO, result={DIGEST: digest_of("one and more\n")})
+    folder.architecture.write_text("one a")
+    folder.write_architecture("one and more\n")
+    assert folder.architecture.read_text() == "one and more\n"
+
+
+def test_a_designed_spec_that_is_ahead_of_the_record_is_left_in_its_place(folder):
+    """A kill between the two files, after a further budget."""
+    folder.write_run_file(WHO, result={DIGEST: digest_of("one\n")})
+    folder.architecture.write_text("two\n")
+    folder.write_architecture("two\n")
+    assert folder.architecture.read_text() == "two\n"
+    assert not (folder.path / "architecture.edited.yaml").exists()
+
+
+def test_a_folder_below_that_is_a_link_is_refused(folder, tmp_path_factory):
+    (folder.path / "run-1").symlink_to(tmp_path_factory.mktemp("outside"))
+    with pytest.raises(FolderError, match="run-1 is a link"):
+        folder.records(0, 2)
+    with pytest.raises(FolderError, match="remove it to go on"):
+        folder.below("run-1")
+
+
+def test_a_design_begins_only_where_no_other_one_is(folder):
+    folder.path.joinpath("lock").touch()
+    folder.write_run_file(OTHER, budgets=[7])  # of one that failed at once
+    folder.begin("bbsd: 1\n")
+    assert folder.budgets() == ()
+    assert (folder.path / "spec.yaml").read_text() == "bbsd: 1\n"
+    (folder.path / "checkpoint.npz").touch()
+    with pytest.raises(FolderError, match="is not empty"):
+        folder.begin("bbsd: 2\n")
+    assert (folder.path / "spec.yaml").read_text() == "bbsd: 1\n"
+
+
+def test_a_folder_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(FolderError, match=r"there is no folder .*start it without --resume"):
+        folder_to_resume(tmp_path / "none", "lift", WHO)
 
 
 def test_a_folder_of_an_older_format_is_told_from_another_run(folder):

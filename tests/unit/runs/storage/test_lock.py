@@ -56,3 +56,12 @@ def test_a_holder_that_cannot_be_read_is_another_process(tmp_path, holder, text)
     (tmp_path / "lock").write_text(text)
     with pytest.raises(FolderInUse, match="by another process"), only_writer(Folder(tmp_path)):
         pass
+
+
+def test_a_lock_that_is_a_link_is_refused_and_what_it_leads_to_is_left(tmp_path):
+    (tmp_path / "mine").write_text("precious")
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "lock").symlink_to("../mine")
+    with pytest.raises(OSError, match="lock"), only_writer(Folder(tmp_path / "run")):
+        pass
+    assert (tmp_path / "mine").read_text() == "precious"

@@ -139,3 +139,37 @@ def test_metrics_that_lost_the_last_line_go_with_the_state_before(records, lived
     content = records.metrics.read_bytes().splitlines(keepends=True)
     records.metrics.write_bytes(b"".join(content[:2]))
     assert load(records).state.generation == 2
+
+
+def test_a_step_that_was_written_in_part_is_saved_with_no_state(records, lived, monkeypatch):
+    """The state from before it would stand beside files that are ahead, and the step would be there twice."""
+    monkeypatch.setattr(module, "INTERVAL", 1e9)
+    with pytest.raises(OSError, match="full"):
+        write_in_part(records, lived)
+    assert load(records).state.generation == 1
+    assert lines_of(records) == [(2, 1)]
+
+
+def write_in_part(records, lived):
+    """Write the metrics of the third step, and then meet a full disk; only the first state is saved."""
+    with Journal(records, WHO) as journal:
+        journal._saved_at = -1e10
+        for progress, line in lived[:2]:
+            journal.add(partial(run_arrays, progress), line)
+        progress, line = lived[2]
+        journal.add(partial(run_arrays, progress), line, broken())
+
+
+def broken():
+    raise OSError("the disk is full")
+    yield
+
+
+def test_a_damaged_state_is_never_put_in_the_place_of_a_good_one(records, lived):
+    save(records, lived[:2])
+    records.checkpoint.write_bytes(b"damaged")
+    assert load(records).state.generation == 1
+    assert not records.checkpoint.exists()
+    save(records, lived[1:2])
+    records.checkpoint.unlink()
+    assert load(records).state.generation == 1

@@ -53,3 +53,24 @@ def test_a_damaged_file_is_as_none(folder, text):
 
 def test_a_folder_without_visits_has_none(tmp_path):
     assert read_visits(tmp_path, CELLS) is None
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"cells": 10**12},
+        {"cells": 2},
+        {"asked": []},
+        {"asked": {"-1": [1, 1]}},
+        {"asked": {"7": [1, 1]}},
+        {"asked": {"1": [10**400, 1]}},
+        {"asked": {"1": [-1, 1]}},
+        {"asked": {"1": 3}},
+    ],
+    ids=str,
+)
+def test_counts_that_a_behavior_cannot_have_are_as_none(folder, changed):
+    content = json.loads((folder / FILE).read_text())
+    content["behaviors"][NAMES[0]] |= changed
+    (folder / FILE).write_text(json.dumps(content))
+    assert read_visits(folder, CELLS) is None
