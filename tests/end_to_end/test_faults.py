@@ -11,6 +11,7 @@ import bbsd
 from bbsd import files
 from bbsd.errors import UsageError
 from bbsd.runs.storage import records
+from bbsd.runs.storage.records import FolderError
 
 SPEC = """
 bbsd: 1
@@ -95,7 +96,7 @@ def test_a_fault_costs_nothing_that_a_resumed_design_does_not_make_good(spec, tm
     begin = 1 + (settings is PAPER) + isinstance(error, Killed)
     for number in range(begin, undisturbed.calls + 1, STEP):
         out = tmp_path / f"{number}"
-        with pytest.raises((Killed, OSError)):
+        with pytest.raises((Killed, OSError, FolderError)):
             design(spec, out, settings, System(number, error))
         try:
             design(spec, out, settings, System(), resume=True)
