@@ -3,7 +3,7 @@
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
 `evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `export`, `spaces`, `page` for `bbsd report`,
-`faults` for `evaluate --fault`, and `trace` for one episode; an `Agent` is a design in a program of one's own, `env` a
+`runs_in` for `bbsd runs`, `faults` for `evaluate --fault`, and `trace` for one episode; an `Agent` is a design in a program of one's own, `env` a
 spec's world for other libraries.
 `bbsd.api` documents them.
 """
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         faults,
         load,
         page,
+        runs_in,
         spaces,
         tidy,
         trace,
@@ -49,6 +50,7 @@ __all__ = [
     "faults",
     "load",
     "page",
+    "runs_in",
     "spaces",
     "tidy",
     "trace",

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from bbsd.api.specs import AnySpec, check, load
     from bbsd.api.tidying import tidy
     from bbsd.api.tracing import trace
-    from bbsd.api.watching import watch
+    from bbsd.api.watching import runs_in, watch
     from bbsd.api.worlds import env
 
 HOMES = {
@@ -61,7 +61,7 @@ HOMES = {
         "SearchProgress",
     ),
     "bbsd.api.specs": ("AnySpec", "check", "load"),
-    "bbsd.api.watching": ("watch",),
+    "bbsd.api.watching": ("runs_in", "watch"),
     "bbsd.api.tidying": ("tidy",),
     "bbsd.api.tracing": ("trace",),
     "bbsd.api.worlds": ("env",),
@@ -95,6 +95,7 @@ __all__ = [
     "load",
     "page",
     "price",
+    "runs_in",
     "spaces",
     "tidy",
     "trace",

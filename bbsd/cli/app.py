@@ -25,6 +25,7 @@ from bbsd.cli.streams import steady_streams
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report
+from bbsd.cli.understanding.runs import runs
 from bbsd.cli.understanding.tidy import tidy
 from bbsd.cli.understanding.watch import watch
 from bbsd.cli.understanding.why import why
@@ -53,6 +54,7 @@ app.command()(stoppable(tidy))
 app.command()(stoppable(worth))
 app.command()(stoppable(compare))
 app.command()(stoppable(report))
+app.command()(stoppable(runs))
 app.command()(watch)
 app.command()(stoppable(export))
 app.command()(stoppable(check))

@@ -64,11 +64,10 @@ def unpacked(content: bytes, who: Identity, name: str) -> Arrays:
     Raises:
         CheckpointError: the content is damaged, or of another run: the message names what differs.
     """
-    digest, content = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
-    if sha256(content).digest() != digest:
+    if not is_undamaged(content):
         raise CheckpointError(f"{name} is damaged: its digest does not match")
     try:
-        arrays = _arrays(content)
+        arrays = _arrays(content[DIGEST_BYTES:])
         theirs = json.loads(arrays.pop(IDENTITY).astype(np.uint8).tobytes())
         different = who.differences(theirs)
     except (BadZipFile, EOFError, KeyError, MemoryError, TypeError, ValueError, AttributeError) as error:
@@ -76,6 +75,11 @@ def unpacked(content: bytes, who: Identity, name: str) -> Arrays:
     if different:
         raise CheckpointError(f"{name} is of another run: different are {' and '.join(different)}")
     return arrays
+
+
+def is_undamaged(content: bytes) -> bool:
+    """Return whether the digest of a checkpoint file's content matches; whose it is, is not looked at."""
+    return sha256(content[DIGEST_BYTES:]).digest() == content[:DIGEST_BYTES]
 
 
 def _arrays(content: bytes) -> Arrays:

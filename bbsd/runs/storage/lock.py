@@ -47,7 +47,7 @@ def only_writer(folder: Folder) -> Iterator[None]:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT | NO_FOLLOW, 0o666)
     try:
         if not _locked(descriptor):
-            raise FolderInUse(f"{folder.path} is being written by {_holder(path)}")
+            raise FolderInUse(f"{folder.path} is being written by {holder_text(path)}")
         with errors_name(path):
             os.ftruncate(descriptor, 0)
             write_all(descriptor, _who().encode())
@@ -76,7 +76,7 @@ def _who() -> str:
     return json.dumps({"host": platform.node(), "process": os.getpid(), "since": since}) + "\n"
 
 
-def _holder(path: Path) -> str:
+def holder_text(path: Path) -> str:
     """Return who holds a lock, in words; a holder that has just come may need a moment to write its name."""
     for _ in range(LOOKS):
         if (holder := _named(path)) is not None:

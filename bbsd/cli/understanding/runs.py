@@ -1,0 +1,35 @@
+"""`bbsd runs`."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import bbsd
+from bbsd.cli.options import AsJson
+from bbsd.cli.output import say, show
+
+
+def runs(
+    folders: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            metavar="FOLDER", help="Folders of runs, or folders that hold such.", show_default="runs"
+        ),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """List runs with their state, and what came out so far.
+
+    A run is running, stopped, finished, not begun or damaged. Only reads: no lock is taken, and nothing is written.
+    """
+    from bbsd.report.plain import json_text
+    from bbsd.report.watching.listing import listing_plain, listing_text
+    from bbsd.runs.storage.finished import way_on
+
+    found = bbsd.runs_in(*(folders or []))
+    show(json_text(listing_plain(found)) if as_json else listing_text(found))
+    if not found:
+        say(f"there are no runs in {', '.join(map(str, folders or ['runs']))}")
+    elif len(found) == 1 and found[0].state == "stopped" and not found[0].version:
+        say(way_on(found[0].folder))
