@@ -3,8 +3,8 @@
 A spec is a design with holes: what it gives is kept, what it leaves open is designed, and what comes back is the same
 spec with the holes filled. The functions are the commands of the command line: `load`, `check`, `compile`, `design`,
 `evaluate`, `explain`, `why`, `tidy`, `worth`, `compare`, `export`, `spaces`, `page` for `bbsd report`,
-`runs_in` for `bbsd runs`, `faults` for `evaluate --fault`, and `trace` for one episode; an `Agent` is a design in a program of one's own, `env` a
-spec's world for other libraries.
+`runs_in` for `bbsd runs`, `faults` for `evaluate --fault`, and `trace` for one episode; an `Agent` is a design in a
+program of one's own, `env` a spec's world for other libraries.
 `bbsd.api` documents them.
 """
 

@@ -1,4 +1,7 @@
-"""The one place where regular files are written: whole or not at all, and on the disk when the call returns."""
+"""The one place where regular files are written: whole or not at all, and on the disk when the call returns.
+
+Records of runs are read here too, so that a pipe of a record's name is not waited for.
+"""
 
 from __future__ import annotations
 
@@ -44,6 +47,20 @@ def write_whole(path: Path, content: bytes, *, through_links: bool = False) -> N
 def write_text_whole(path: Path, text: str, *, through_links: bool = False) -> None:
     """Write a text as UTF-8 with its own line ends, as `write_whole` does."""
     write_whole(path, text.encode(), through_links=through_links)
+
+
+def read_regular(path: Path, most: int = -1) -> bytes:
+    """Return the content of a regular file, or its first bytes.
+
+    Raises:
+        OSError: there is none, or a folder, a pipe or a device has its name; it names the file.
+    """
+    with errors_name(path):
+        flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+        with os.fdopen(os.open(path, flags | getattr(os, "O_CLOEXEC", 0)), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise OSError(errno.EINVAL, "it is no regular file")
+            return file.read(most)
 
 
 def _stat(path: Path) -> os.stat_result | None:

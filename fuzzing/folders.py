@@ -45,6 +45,7 @@ SMALL = 200
 """Steps and episodes of commands that run some."""
 COMMANDS: tuple[Callable[[Path], list[str | Path]], ...] = (
     lambda out: ["watch", out],
+    lambda out: ["runs", out],
     lambda out: ["report", out, "-o", out / "page.html", "--episodes", "2"],
     lambda out: ["explain", out],
     lambda out: ["evaluate", out, "--episodes", str(SMALL)],

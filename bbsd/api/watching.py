@@ -87,6 +87,8 @@ def generations(run: str | Path) -> int:
     """Return how many generations each run of a design has; 0 where that cannot be told, or it has none."""
     folder, content = Path(run), run_content(Path(run))
     overrides = content.get("set", [])
+    if not (folder / SPEC).is_file():
+        return 0
     try:
         loaded = load(folder / SPEC, overrides=[str(each) for each in overrides])
     except (SpecError, UsageError, OSError, TypeError):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 FENCE = re.compile(r"^```(?P<kind>\w+)(?: (?P<name>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"^\$ (.+)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)
-SECONDS = re.compile(r"\d+(\.\d+)? s$", re.MULTILINE)
+VARYING = re.compile(r"\d+(\.\d+)? s$|\d{4}-\d\d-\d\d \d\d:\d\d$", re.MULTILINE)
 
 
 def replayed(text: str, folder: Path) -> str:
@@ -67,8 +67,8 @@ def _printed(command: str, folder: Path) -> str:
 
 
 def _agree(shown: str, printed: str) -> bool:
-    """Whether a document shows what is printed; ... on a line stands for any lines, and durations may differ."""
+    """Whether a document shows what is printed; ... on a line stands for any lines; durations and times may differ."""
     parts = [
-        re.escape(SECONDS.sub("0 s", part)) for part in re.split(r"^\.\.\.\n", shown, flags=re.MULTILINE)
+        re.escape(VARYING.sub("0 s", part)) for part in re.split(r"^\.\.\.\n", shown, flags=re.MULTILINE)
     ]
-    return re.fullmatch("(?:.*\n)*".join(parts), SECONDS.sub("0 s", printed)) is not None
+    return re.fullmatch("(?:.*\n)*".join(parts), VARYING.sub("0 s", printed)) is not None

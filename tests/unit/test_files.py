@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from bbsd import files
-from bbsd.files import make_folder, move, write_text_whole, write_whole
+from bbsd.files import make_folder, move, read_regular, write_text_whole, write_whole
 
 CALLS = ("open", "write", "fsync", "replace")
 
@@ -106,3 +106,19 @@ def test_a_folder_is_made_once(tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(FileExistsError, match="file"):
         make_folder(tmp_path / "file")
+
+
+def test_a_regular_file_is_read(tmp_path):
+    (tmp_path / "a").write_bytes(b"\r\nabc")
+    (tmp_path / "link").symlink_to("a")
+    assert read_regular(tmp_path / "a") == read_regular(tmp_path / "link") == b"\r\nabc"
+    assert read_regular(tmp_path / "a", 3) == b"\r\na"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no pipes with names")
+@pytest.mark.parametrize("make", [os.mkdir, os.mkfifo], ids=["folder", "pipe"])
+def test_what_is_no_regular_file_is_refused_at_once(tmp_path, make):
+    make(tmp_path / "a")
+    for path in (tmp_path / "a", tmp_path / "none"):
+        with pytest.raises(OSError, match=path.name):
+            read_regular(path)

@@ -27,9 +27,10 @@ def runs(
     from bbsd.report.watching.listing import listing_plain, listing_text
     from bbsd.runs.storage.finished import way_on
 
-    found = bbsd.runs_in(*(folders or []))
+    places = folders or []
+    found = bbsd.runs_in(*places)
     show(json_text(listing_plain(found)) if as_json else listing_text(found))
     if not found:
-        say(f"there are no runs in {', '.join(map(str, folders or ['runs']))}")
+        say(f"there are no runs in {', '.join(map(str, places)) or 'runs'}")
     elif len(found) == 1 and found[0].state == "stopped" and not found[0].version:
         say(way_on(found[0].folder))

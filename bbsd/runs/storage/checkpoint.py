@@ -12,7 +12,7 @@ from zipfile import ZIP_STORED, BadZipFile, ZipFile
 import numpy as np
 from numpy.lib import format as npy
 
-from bbsd.files import write_whole
+from bbsd.files import read_regular, write_whole
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -52,7 +52,7 @@ def load(path: Path, who: Identity) -> Arrays:
         CheckpointError: the file is damaged, or of another run: the message names what differs.
     """
     try:
-        content = path.read_bytes()
+        content = read_regular(path)
     except OSError as error:
         raise CheckpointError(f"{path} cannot be read: {error.strerror}") from None
     return unpacked(content, who, str(path))

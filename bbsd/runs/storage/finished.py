@@ -6,6 +6,7 @@ import shlex
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import UsageError
+from bbsd.files import read_regular
 from bbsd.runs.storage.reading import run_record
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def design_file(path: Path) -> Path:
 def run_content(path: Path) -> dict[str, Any]:
     """Return what a run's folder says of the run, empty where that is missing or damaged."""
     try:
-        return run_record((path / RUN_FILE).read_bytes())
+        return run_record(read_regular(path / RUN_FILE))
     except (OSError, ValueError):
         return {}
 

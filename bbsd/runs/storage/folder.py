@@ -10,7 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd.files import make_folder, move, write_text_whole, write_whole
+from bbsd.files import make_folder, move, read_regular, write_text_whole, write_whole
 from bbsd.runs.storage.census import TABLES
 from bbsd.runs.storage.finished import ARCHITECTURE, BEST, RUN_FILE, SPEC, run_content
 from bbsd.runs.storage.records import METRICS, FolderError, Records
@@ -73,9 +73,9 @@ class Folder:
         if n_runs == 1:
             return
         folders = [self.records(run, n_runs).path for run in range(n_runs)]
-        write_whole(self.metrics, b"".join((folder / METRICS).read_bytes() for folder in folders))
+        write_whole(self.metrics, b"".join(read_regular(folder / METRICS) for folder in folders))
         for name in TABLES:
-            tables = [(folder / name).read_bytes() for folder in folders if (folder / name).exists()]
+            tables = [read_regular(folder / name) for folder in folders if (folder / name).exists()]
             if tables:  # the names of the columns stand in the first line of each
                 rest = (table.partition(b"\n")[2] for table in tables[1:])
                 write_whole(self.path / name, b"".join([tables[0], *rest]))
@@ -97,7 +97,7 @@ class Folder:
         The digest in `run.json` proves that a file is what was written.
         """
         recorded, content = self.result().get(DIGEST), text.encode()
-        there = self.architecture.read_bytes() if self.architecture.exists() else b""
+        there = read_regular(self.architecture) if self.architecture.exists() else b""
         is_cut = content.startswith(there)  # or whole: it was written just before a kill
         if not is_cut and recorded and sha256(there).hexdigest() != recorded:
             if digest_of(text) == recorded:

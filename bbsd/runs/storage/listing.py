@@ -8,6 +8,7 @@ from hashlib import sha256
 from math import isnan, nan
 from typing import TYPE_CHECKING, Any, Literal
 
+from bbsd.files import read_regular
 from bbsd.runs.storage.checkpoint import is_undamaged
 from bbsd.runs.storage.finished import ARCHITECTURE, RUN_FILE, run_content
 from bbsd.runs.storage.lock import holder_text
@@ -141,7 +142,9 @@ def _state(folder: Path, content: dict[str, Any], now: Watched) -> tuple[ListedS
         return "running", f"by {holder_text(folder / LOCK)}"
     if damage := _damage(folder, content, now):
         return "damaged", damage
-    if now.state == "stopped" and not any((path / name).exists() for path in _folders(folder) for name in OF_RUN):
+    if now.state == "stopped" and not any(
+        (path / name).exists() for path in _folders(folder) for name in OF_RUN
+    ):
         return "not begun", ""
     return STATES[now.state], _edited(folder, now) if now.state == "done" else ""
 
@@ -193,7 +196,7 @@ def _written(path: Path) -> float:
 def _content(path: Path) -> bytes:
     """Return what a regular file holds; nothing where there is none, or it cannot be read."""
     try:
-        return path.read_bytes() if path.is_file() else b""
+        return read_regular(path)
     except OSError:
         return b""
 
@@ -214,7 +217,9 @@ def _other_version(content: dict[str, Any]) -> str:
     theirs = content.get("bbsd"), content.get("revision")
     if not content or theirs == (__version__, REVISION):
         return ""
-    return f"bbsd {theirs[0] or 'of unknown version'}, revision {'unknown' if theirs[1] is None else theirs[1]}"
+    return (
+        f"bbsd {theirs[0] or 'of unknown version'}, revision {'unknown' if theirs[1] is None else theirs[1]}"
+    )
 
 
 def _number(value: object) -> float:

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
-from bbsd.files import NO_FOLLOW, errors_name, write_all
+from bbsd.files import NO_FOLLOW, errors_name, read_regular, write_all
 from bbsd.runs.storage.finished import LOCK
 from bbsd.runs.storage.reading import plain_data
 
@@ -87,8 +87,7 @@ def holder_text(path: Path) -> str:
 
 def _named(path: Path) -> str | None:
     try:
-        with path.open("rb") as file:
-            holder = plain_data(file.read(MOST_BYTES))
+        holder = plain_data(read_regular(path, MOST_BYTES))
         return (
             f"process {holder['process']:d} on {str(holder['host'])[:64]}, since {str(holder['since'])[:32]}"
         )

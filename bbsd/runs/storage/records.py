@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.errors import UsageError
-from bbsd.files import NO_FOLLOW, errors_name, make_folder, move, write_all, write_whole
+from bbsd.files import NO_FOLLOW, errors_name, make_folder, move, read_regular, write_all, write_whole
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.census import TABLES
 from bbsd.runs.storage.reading import are_metrics, plain_data
@@ -102,7 +102,7 @@ class Records:
             size, digest = int(arrays[size_key]), arrays[digest_key].tobytes()
         except (KeyError, TypeError, ValueError) as error:
             raise checkpoint.CheckpointError(f"it lacks {error}") from None
-        content = path.read_bytes()[:size] if path.exists() else b""
+        content = read_regular(path)[:size] if path.exists() else b""
         if len(content) != size or sha256(content).digest() != digest:
             raise checkpoint.CheckpointError(f"{path} is not what it was when {self.checkpoint} was saved")
         return content
@@ -121,7 +121,7 @@ class Records:
         if not self.metrics.exists():
             return []
         complete = [
-            line for line in self.metrics.read_bytes().splitlines(keepends=True) if line.endswith(b"\n")
+            line for line in read_regular(self.metrics).splitlines(keepends=True) if line.endswith(b"\n")
         ]
         try:
             lines = [plain_data(line) for line in complete]
@@ -153,7 +153,7 @@ class _Growing:
     def __init__(self, path: Path) -> None:
         self.path = path
         with self._open():
-            content = path.read_bytes()
+            content = read_regular(path)
         self.size, self.lines, self._digest = len(content), content.count(b"\n"), sha256(content)
         self._synced = True
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.architecture.visits import Visits
-from bbsd.files import write_text_whole
+from bbsd.files import read_regular, write_text_whole
 from bbsd.runs.storage.finished import ARCHITECTURE, VISITS
 from bbsd.runs.storage.reading import is_whole, plain_data
 
@@ -57,7 +57,7 @@ def read_visits(folder: Path, cells: Mapping[str, int]) -> Visits | None:
     It is none where it is missing, damaged, or of a design that was changed since.
     """
     try:
-        content = plain_data((folder / VISITS).read_bytes())
+        content = plain_data(read_regular(folder / VISITS))
         if content["format"] != FORMAT or content[DIGEST] != _digest(folder / ARCHITECTURE):
             return None
         counts = [_counts(content["behaviors"][name], count) for name, count in cells.items()]
@@ -89,4 +89,4 @@ def _count(value: object) -> int:
 
 
 def _digest(path: Path) -> str:
-    return sha256(path.read_bytes()).hexdigest()
+    return sha256(read_regular(path)).hexdigest()

@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from bbsd.files import read_regular
 from bbsd.runs.storage.finished import RUN_FILE, SPEC, run_content
 from bbsd.runs.storage.reading import is_line, is_whole, plain_data
 
@@ -121,7 +122,7 @@ def _begun(folder: Path) -> list[int]:
 def _lines(path: Path) -> tuple[Line, ...]:
     """Return the lines that are complete and have what a line of metrics has."""
     try:
-        content = path.read_bytes()
+        content = read_regular(path)
     except OSError:
         return ()
     return tuple(read for line in content.split(b"\n")[:-1] if (read := _read(line)))
@@ -145,8 +146,7 @@ def _state(folder: Path, *, has_begun: bool, has_result: bool) -> State:
 def _writer(folder: Path) -> Line:
     """Return the process that the lock's file names, empty where it names none."""
     try:
-        with (folder / LOCK).open("rb") as file:
-            value = plain_data(file.read(MOST_BYTES))
+        value = plain_data(read_regular(folder / LOCK, MOST_BYTES))
     except (OSError, ValueError):
         return {}
     return value if isinstance(value, dict) else {}

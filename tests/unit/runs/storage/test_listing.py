@@ -9,7 +9,15 @@ import pytest
 from bbsd.runs.storage.listing import listed, listed_below
 from bbsd.version import REVISION, __version__
 
-LINE = {"run": 1, "method": "auto", "stage": "search", "episodes": 10, "mean": 1.0, "measured": 3, "structure": ["a"]}
+LINE = {
+    "run": 1,
+    "method": "auto",
+    "stage": "search",
+    "episodes": 10,
+    "mean": 1.0,
+    "measured": 3,
+    "structure": ["a"],
+}
 GENERATION = {
     "run": 1,
     "generation": 4,
@@ -20,7 +28,15 @@ GENERATION = {
     "diversity": {"a": 0.5},
     "structure": ["a"],
 }
-RUN = {"format": 3, "bbsd": __version__, "revision": REVISION, "seed": 7, "runs": 1, "set": [], "budgets": [60, 40]}
+RUN = {
+    "format": 3,
+    "bbsd": __version__,
+    "revision": REVISION,
+    "seed": 7,
+    "runs": 1,
+    "set": [],
+    "budgets": [60, 40],
+}
 STATE = b"arrays"
 WHOLE = sha256(STATE).digest() + STATE
 DESIGN = "bbsd: 1\n"
@@ -165,7 +181,17 @@ def test_half_a_line_is_none(tmp_path):
     assert listed(tmp_path).state == "stopped"
 
 
-ODD = (b"", b"\x00\xff", b"[" * 100_000, b"null", b'"x"', b"[]", b"\xff\xfe{\x00}\x00", b'{"mean": NaN}\n', b"1e999")
+ODD = (
+    b"",
+    b"\x00\xff",
+    b"[" * 100_000,
+    b"null",
+    b'"x"',
+    b"[]",
+    b"\xff\xfe{\x00}\x00",
+    b'{"mean": NaN}\n',
+    b"1e999",
+)
 
 
 @pytest.mark.parametrize("content", ODD)
@@ -175,7 +201,9 @@ def test_whatever_is_in_a_file_the_run_is_listed(tmp_path, name, content):
     assert listed(tmp_path).state in {"finished", "damaged", "running"}
 
 
-@pytest.mark.parametrize("value", [None, [], {}, "x", True, -1, 0, 10**400, 1e308, float("nan"), [[1]], {"mean": {}}])
+@pytest.mark.parametrize(
+    "value", [None, [], {}, "x", True, -1, 0, 10**400, 1e308, float("nan"), [[1]], {"mean": {}}]
+)
 @pytest.mark.parametrize("key", [*RUN, "result", "environment"])
 def test_whatever_a_record_says_the_run_is_listed(tmp_path, key, value):
     run(tmp_path, **{key: value})
