@@ -7,4 +7,5 @@ REVISION = 3
 
 It goes up by one with every change after which the same spec and seed give other bytes of `architecture.yaml` or
 `metrics.jsonl`, or after which a checkpoint means something else: no folder is resumed by code of another revision.
+`python -m tests.runs` then makes the folders that every later version must read.
 """

@@ -7,7 +7,7 @@ import json
 import os
 import platform
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 from bbsd.errors import UsageError
@@ -51,9 +51,11 @@ def only_writer(folder: Folder) -> Iterator[None]:
         with errors_name(path):
             os.ftruncate(descriptor, 0)
             write_all(descriptor, _who().encode())
-        yield
-        with errors_name(path):
-            os.ftruncate(descriptor, 0)
+        try:
+            yield
+        finally:
+            with suppress(OSError):  # what was done is done; a lock that is not held hinders nobody
+                os.ftruncate(descriptor, 0)
     finally:
         os.close(descriptor)
 

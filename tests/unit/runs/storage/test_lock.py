@@ -65,3 +65,9 @@ def test_a_lock_that_is_a_link_is_refused_and_what_it_leads_to_is_left(tmp_path)
     with pytest.raises(OSError, match="lock"), only_writer(Folder(tmp_path / "run")):
         pass
     assert (tmp_path / "mine").read_text() == "precious"
+
+
+def test_an_interrupt_leaves_no_name_in_the_file(tmp_path):
+    with pytest.raises(KeyboardInterrupt), only_writer(Folder(tmp_path)):
+        raise KeyboardInterrupt
+    assert (tmp_path / "lock").read_bytes() == b""
