@@ -11,8 +11,20 @@ from bbsd.runs.storage.watching import Watched, WatchedRun
 from tests.unit.explanation.comparison.designs import WALK, design_of
 
 LINES = [
-    {"run": 1, "generation": 1, "mean": 0.5, "diversity": {"rise": 0.75}, "structure": ["rise", "fall"]},
-    {"run": 1, "generation": 2, "mean": 1.5, "diversity": {"rise": 0.5}, "structure": ["fall", "rise"]},
+    {
+        "run": 1,
+        "generation": generation,
+        "mean": mean,
+        "best": 2.0,
+        "sd": 0.25,
+        "lifetime": 0.5,
+        "diversity": {"rise": diversity},
+        "structure": structure,
+    }
+    for generation, mean, diversity, structure in [
+        (1, 0.5, 0.75, ["rise", "fall"]),
+        (2, 1.5, 0.5, ["fall", "rise"]),
+    ]
 ]
 
 
@@ -37,7 +49,16 @@ def test_without_pandas_it_is_said_what_to_install(monkeypatch):
 
 def test_metrics_have_a_column_for_each_number(pandas):
     made = metrics_frame(LINES)
-    assert made.columns.tolist() == ["run", "generation", "mean", "diversity/rise", "structure"]
+    assert made.columns.tolist() == [
+        "run",
+        "generation",
+        "mean",
+        "best",
+        "sd",
+        "lifetime",
+        "diversity/rise",
+        "structure",
+    ]
     assert made["mean"].tolist() == [0.5, 1.5]
     assert made["structure"].tolist() == ["rise fall", "fall rise"]
     assert len(metrics_frame([])) == 0
