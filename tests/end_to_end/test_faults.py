@@ -54,6 +54,8 @@ class System:
 
     def _counted(self, real):
         def call(*arguments, **options):
+            if real is os.open and arguments[1] & (os.O_WRONLY | os.O_RDWR) == 0:
+                return real(*arguments, **options)  # it only reads
             self.calls += 1
             if self.calls == self._failing or (
                 isinstance(self._error, Killed) and 0 < self._failing < self.calls

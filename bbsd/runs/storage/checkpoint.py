@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import math
 from hashlib import sha256
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 DIGEST_BYTES = 32
 IDENTITY = "identity"
+DISK_FAILS = frozenset({errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ENOSPC})
+"""Errors that tell nothing of a file itself."""
 
 
 class CheckpointError(Exception):
@@ -50,10 +53,13 @@ def load(path: Path, who: Identity) -> Arrays:
 
     Raises:
         CheckpointError: the file is damaged, or of another run: the message names what differs.
+        OSError: the disk fails, so that nothing is known of the file, and nothing may be cut back to an older one.
     """
     try:
         content = read_regular(path)
     except OSError as error:
+        if error.errno in DISK_FAILS:
+            raise
         raise CheckpointError(f"{path} cannot be read: {error.strerror}") from None
     return unpacked(content, who, str(path))
 

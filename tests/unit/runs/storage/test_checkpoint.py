@@ -1,4 +1,6 @@
+import errno
 import json
+import os
 from dataclasses import fields, is_dataclass, replace
 from hashlib import sha256
 from io import BytesIO
@@ -209,3 +211,12 @@ def test_every_flipped_byte_is_detected(tmp_path):
         path.write_bytes(whole[:index] + bytes([whole[index] ^ 16]) + whole[index + 1 :])
         with pytest.raises(CheckpointError):
             load(path)
+
+
+def test_a_disk_that_fails_is_no_damaged_state(tmp_path, monkeypatch):
+    def failing(path, most=-1):
+        raise OSError(errno.EIO, os.strerror(errno.EIO), str(path))
+
+    monkeypatch.setattr(checkpoint, "read_regular", failing)
+    with pytest.raises(OSError, match="Input/output error"):
+        checkpoint.load(tmp_path / "checkpoint.npz", WHO)
