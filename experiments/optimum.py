@@ -17,14 +17,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import bbsd
-from bbsd.evaluation.decision_process import DecisionProcess
+from bbsd.evaluation.exact.decision_process import DecisionProcess
 from bbsd.expression.graph import evaluate, needed
 from experiments.designs import spec_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-    from bbsd.evaluation.decision_process import Optimum
+    from bbsd.evaluation.statistics import Optimum
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning.meaning import Meaning

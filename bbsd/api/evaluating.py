@@ -21,7 +21,7 @@ from bbsd.evaluation import (
     from_the_top,
     weighted_evaluation,
 )
-from bbsd.evaluation.exact_tables import exact_evaluation
+from bbsd.evaluation.exact.tables import exact_evaluation
 from bbsd.kernel.keys import own_keys
 from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.judgement import RANDOM_EPISODES

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypedDict
 
-from bbsd.cli.output import say
+from bbsd.cli.terminal.output import say
 from bbsd.errors import escape
 
 

@@ -15,13 +15,13 @@ from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.export import export
 from bbsd.cli.fmt import fmt
-from bbsd.cli.interrupts import stoppable
-from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.new import new
-from bbsd.cli.output import say
 from bbsd.cli.schema import schema
 from bbsd.cli.spaces import spaces
-from bbsd.cli.streams import steady_streams
+from bbsd.cli.terminal.interrupts import stoppable
+from bbsd.cli.terminal.mistakes import show_mistake
+from bbsd.cli.terminal.output import say
+from bbsd.cli.terminal.streams import steady_streams
 from bbsd.cli.understanding.compare import compare
 from bbsd.cli.understanding.explain import explain
 from bbsd.cli.understanding.report import report

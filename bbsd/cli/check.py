@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from bbsd.cli.mistakes import MISTAKE, diagnoses_text
 from bbsd.cli.options import spec_files
-from bbsd.cli.output import has_color, show, show_commands
+from bbsd.cli.terminal.mistakes import MISTAKE, diagnoses_text
+from bbsd.cli.terminal.output import has_color, show, show_commands
 from bbsd.errors import KINDS, Diagnosis, SpecError, describe, did_you_mean, escape, render_json
 from bbsd.report.numbers import count
 from bbsd.report.plain import json_text

@@ -2,7 +2,7 @@
 
 import bbsd
 from bbsd.cli.options import Lanes, Overrides, SpecFile
-from bbsd.cli.output import show
+from bbsd.cli.terminal.output import show
 
 
 def compile_(spec: SpecFile, lanes: Lanes = 40, overrides: Overrides = None) -> None:

@@ -1,7 +1,7 @@
 """`bbsd config`."""
 
 from bbsd.cli.options import Overrides, SpecFile
-from bbsd.cli.output import show
+from bbsd.cli.terminal.output import show
 
 
 def config(spec: SpecFile, overrides: Overrides = None) -> None:

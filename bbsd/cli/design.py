@@ -10,7 +10,6 @@ import typer
 
 from bbsd.cli.access import stepping
 from bbsd.cli.budget import read_budget, read_seeds
-from bbsd.cli.interrupts import INTERRUPTED
 from bbsd.cli.options import (
     AllowImport,
     AsJson,
@@ -22,8 +21,9 @@ from bbsd.cli.options import (
     SpecFile,
     StepLimit,
 )
-from bbsd.cli.output import error_console, leave_now, say, show, show_table
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
+from bbsd.cli.terminal.interrupts import INTERRUPTED
+from bbsd.cli.terminal.output import error_console, leave_now, say, show, show_table
 from bbsd.cli.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
 

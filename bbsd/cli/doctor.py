@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from bbsd.cli.options import AsJson
-from bbsd.cli.output import say, show
+from bbsd.cli.terminal.output import say, show
 
 if TYPE_CHECKING:
     from bbsd.report.health import Finding

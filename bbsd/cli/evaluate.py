@@ -22,7 +22,7 @@ from bbsd.cli.options import (
     StepLimit,
     read_episode,
 )
-from bbsd.cli.output import (
+from bbsd.cli.terminal.output import (
     error_console,
     has_blocks,
     require_writable_file,

@@ -8,7 +8,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import DesignFile, Overrides, Seed
-from bbsd.cli.output import require_writable_file, say, show
+from bbsd.cli.terminal.output import require_writable_file, say, show
 from bbsd.errors import escape
 from bbsd.files import write_text_whole
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.mistakes import show_mistake
 from bbsd.cli.options import spec_files
-from bbsd.cli.output import say, show
+from bbsd.cli.terminal.mistakes import show_mistake
+from bbsd.cli.terminal.output import say, show
 from bbsd.errors import SpecError, escape
 from bbsd.files import write_text_whole
 

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from bbsd.cli.options import SUFFIXES
-from bbsd.cli.output import say, show
+from bbsd.cli.terminal.output import say, show
 from bbsd.errors import UsageError, escape
 
 MAX_NAME_LENGTH = 100

@@ -1,6 +1,6 @@
 """`bbsd schema`."""
 
-from bbsd.cli.output import show
+from bbsd.cli.terminal.output import show
 
 
 def schema() -> None:

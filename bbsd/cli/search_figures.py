@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from bbsd.cli.output import require_writable_file
+from bbsd.cli.terminal.output import require_writable_file
 from bbsd.report.figures import draw_curves, require_figure
 from bbsd.report.numbers import number
 

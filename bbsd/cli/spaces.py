@@ -7,7 +7,7 @@ import typer
 
 from bbsd.cli.access import access
 from bbsd.cli.options import AllowImport, AsJson, ImportFrom, Overrides, StepLimit, spec_files
-from bbsd.cli.output import show
+from bbsd.cli.terminal.output import show
 
 if TYPE_CHECKING:
     from bbsd.api import Spaces

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.output import say
+from bbsd.cli.terminal.output import say
 from bbsd.errors import escape
 
 if TYPE_CHECKING:

@@ -3,8 +3,8 @@
 from bbsd.evaluation.agents import Agents, agents_of
 from bbsd.evaluation.choosing import RANKS, NoSuchEpisode, Rank, chosen_episode
 from bbsd.evaluation.decisions import Decisions
-from bbsd.evaluation.enumeration import NotEnumerable, enumerate_starts
 from bbsd.evaluation.episodes import detailed_outcomes, returns_of
+from bbsd.evaluation.exact.enumeration import NotEnumerable, enumerate_starts
 from bbsd.evaluation.finite import RewardNotFinite, require_finite
 from bbsd.evaluation.paired import PairedEpisodes, paired_episodes
 from bbsd.evaluation.scene import Scene

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from bbsd.compiler import DetailedOutcome, Problem
-    from bbsd.evaluation.decision_process import Optimum
 
 Floats = npt.NDArray[np.float64]
 
@@ -50,6 +49,17 @@ def interval(values: Floats) -> Interval:
     sd = deviation(values)
     half = QUANTILE_95 * sd / sqrt(len(values))
     return Interval(center, sd, center - half, center + half, len(values))
+
+
+@dataclass(frozen=True, slots=True)
+class Optimum:
+    """What can be earned at best."""
+
+    best: float
+    """By whoever sees the state and knows the steps that are left: nothing earns more."""
+    fixed: float
+    """By the best policy found that always does the same in a state."""
+    n_states: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import AsFormat, FormatIsJson, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
-from bbsd.cli.output import say, show, show_table
+from bbsd.cli.terminal.output import say, show, show_table
 from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
 

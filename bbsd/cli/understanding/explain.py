@@ -7,7 +7,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import DesignFile, FormatIsJson, Overrides, Seed
-from bbsd.cli.output import say, show
+from bbsd.cli.terminal.output import say, show
 from bbsd.errors import escape
 from bbsd.report.plain import json_text
 from bbsd.runs.storage.finished import VISITS

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import typer
 
 import bbsd
-from bbsd.cli.output import error_console, say, show, show_table
+from bbsd.cli.terminal.output import error_console, say, show, show_table
 from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
 

@@ -7,7 +7,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import DesignFile, Overrides, Seed, spec_files
-from bbsd.cli.output import error_console, require_writable_file, show
+from bbsd.cli.terminal.output import error_console, require_writable_file, show
 from bbsd.errors import escape
 from bbsd.files import write_text_whole
 

@@ -7,7 +7,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import AsJson
-from bbsd.cli.output import say, show
+from bbsd.cli.terminal.output import say, show
 
 
 def runs(

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.interrupts import INTERRUPTED
 from bbsd.cli.options import spec_files
-from bbsd.cli.output import has_blocks, output_console, say, show
+from bbsd.cli.terminal.interrupts import INTERRUPTED
+from bbsd.cli.terminal.output import has_blocks, output_console, say, show
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

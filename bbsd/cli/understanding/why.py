@@ -15,7 +15,7 @@ from bbsd.cli.options import (
     Seed,
     read_episode,
 )
-from bbsd.cli.output import show
+from bbsd.cli.terminal.output import show
 from bbsd.errors import SpecError
 from bbsd.report.plain import json_text
 

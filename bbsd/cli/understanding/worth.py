@@ -7,7 +7,7 @@ import typer
 
 import bbsd
 from bbsd.cli.options import DesignFile, FormatIsJson, Jobs, Lanes, Overrides, Seed
-from bbsd.cli.output import show, show_table
+from bbsd.cli.terminal.output import show, show_table
 from bbsd.report.plain import json_text
 
 

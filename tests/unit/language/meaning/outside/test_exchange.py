@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from bbsd.evaluation.enumeration import NotEnumerable, enumerate_starts
+from bbsd.evaluation.exact.enumeration import NotEnumerable, enumerate_starts
 from bbsd.expression.graph import Node, evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.evaluation.decision_process import Chain, DecisionProcess
-from bbsd.evaluation.single_steps import steps_of
+from bbsd.evaluation.exact.decision_process import Chain, DecisionProcess
+from bbsd.evaluation.exact.single_steps import steps_of
 from bbsd.evaluation.statistics import Evaluation, Interval
 
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.environments.tables import TransitionTable
-    from bbsd.evaluation.decision_process import Optimum
+    from bbsd.evaluation.statistics import Optimum
 
 
 def exact_evaluation(

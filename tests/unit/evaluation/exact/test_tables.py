@@ -11,8 +11,8 @@ from bbsd.architecture import Architecture
 from bbsd.compiler import compile_meaning
 from bbsd.environments.tables import Transition, table_of
 from bbsd.evaluation import NotEnumerable, agents_of, evaluation_keys, returns_of
-from bbsd.evaluation.exact_tables import exact_evaluation, optimum_by_table
-from bbsd.evaluation.single_steps import steps_of
+from bbsd.evaluation.exact.single_steps import steps_of
+from bbsd.evaluation.exact.tables import exact_evaluation, optimum_by_table
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import meaning_of
 from tests.unit.tabular import LAKE, TAXI, with_table
@@ -211,7 +211,7 @@ def test_compiled_steps_are_the_same_to_the_last_bit(monkeypatch):
     problem = compile_meaning(meaning, table=table, compiled=False)
     architecture = random_agents(problem, 1, 1).architecture(0)
     plain = steps_of(problem, table, 1, architecture)
-    monkeypatch.setattr("bbsd.evaluation.single_steps.WORTH_COMPILING", 0)
+    monkeypatch.setattr("bbsd.evaluation.exact.single_steps.WORTH_COMPILING", 0)
     compiled = steps_of(problem, table, 1, architecture)
 
     for name in ("starts", "targets", "probabilities", "terms", "control", "met"):
@@ -279,7 +279,7 @@ def test_what_cannot_be_exact_is_refused_with_words(old, new, words):
 
 
 def test_too_many_states_are_refused(monkeypatch):
-    monkeypatch.setattr("bbsd.evaluation.single_steps.MOST_STATES", 30)
+    monkeypatch.setattr("bbsd.evaluation.exact.single_steps.MOST_STATES", 30)
     text = MEMORY.replace("n: 1 if chance(0.5) else n", "n: n * 2")
     problem = compile_meaning(meaning_of(text), table=TABLE, compiled=False)
     with pytest.raises(NotEnumerable, match="more than 30 states, with all that is remembered"):

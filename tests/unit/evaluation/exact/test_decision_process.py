@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bbsd.evaluation.decision_process import Chain, DecisionProcess
+from bbsd.evaluation.exact.decision_process import Chain, DecisionProcess
 
 # State 0 goes to 1 or, with a quarter of the chance, to the end; 1 goes to 2; 2 stays or goes back to 0.
 ORIGINS, TARGETS = np.array([0, 0, 1, 2, 2]), np.array([1, -1, 2, 2, 0])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from bbsd.evaluation.statistics import Optimum
 from bbsd.evaluation.sums import expectation
 
 if TYPE_CHECKING:
@@ -80,17 +81,6 @@ class Chain:
         mean = expectation(self.starts, means[:-1])
         variance = expectation(self.starts, variances[:-1] + (means[:-1] - mean) ** 2)
         return Moments(mean, sqrt(variance))
-
-
-@dataclass(frozen=True, slots=True)
-class Optimum:
-    """What can be earned at best."""
-
-    best: float
-    """By whoever sees the state and knows the steps that are left: nothing earns more."""
-    fixed: float
-    """By the best policy found that always does the same in a state."""
-    n_states: int
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,8 @@ import numpy as np
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.tabulated import START
 from bbsd.compiler.team import Team
-from bbsd.evaluation.enumeration import MAX_STARTS, NotEnumerable, values_of_draw
-from bbsd.evaluation.one_step import STATES, STEP, one_step_of
+from bbsd.evaluation.exact.enumeration import MAX_STARTS, NotEnumerable, values_of_draw
+from bbsd.evaluation.exact.one_step import STATES, STEP, one_step_of
 from bbsd.expression.graph import evaluate, needed
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import DetailedOutcome, Problem
     from bbsd.environments.tables import TransitionTable
-    from bbsd.evaluation.one_step import OneStep
+    from bbsd.evaluation.exact.one_step import OneStep
     from bbsd.expression.graph import Node
 
     Floats = NDArray[np.float64]

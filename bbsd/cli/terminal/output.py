@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO, cast
 
-from bbsd.cli.streams import Raw, Steady
+from bbsd.cli.terminal.streams import Raw, Steady
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType

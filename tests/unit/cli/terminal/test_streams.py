@@ -7,7 +7,7 @@ from io import BytesIO, StringIO, TextIOWrapper
 
 import pytest
 
-from bbsd.cli.streams import Steady, steady_streams
+from bbsd.cli.terminal.streams import Steady, steady_streams
 
 
 class Broken(StringIO):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 import typer
 
-from bbsd.cli.output import leave_now, say
+from bbsd.cli.terminal.output import leave_now, say
 from bbsd.runs.signals import interrupts_request_stop
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from io import BytesIO, StringIO, TextIOWrapper
 
 import pytest
 
-from bbsd.cli.output import has_blocks, has_color, require_writable_file, show
+from bbsd.cli.terminal.output import has_blocks, has_color, require_writable_file, show
 
 
 class Terminal(StringIO):

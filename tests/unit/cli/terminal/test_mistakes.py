@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from bbsd.architecture import HolesLeft
-from bbsd.cli.mistakes import MISTAKE, show_mistake
+from bbsd.cli.terminal.mistakes import MISTAKE, show_mistake
 from bbsd.errors import Diagnosis, Place, SpecError
 from bbsd.text import Source
 

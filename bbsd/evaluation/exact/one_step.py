@@ -17,7 +17,7 @@ import numpy as np
 from bbsd.compiler.columns import Columns
 from bbsd.compiler.passes.outputs import with_slots_read
 from bbsd.compiler.tabulated import OUTCOME, STATE
-from bbsd.evaluation.enumeration import NotEnumerable, values_of_draw
+from bbsd.evaluation.exact.enumeration import NotEnumerable, values_of_draw
 from bbsd.expression.graph import Level, Node, needed, replace_leaves
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import HIDDEN, Slot

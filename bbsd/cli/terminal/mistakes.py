@@ -2,7 +2,7 @@
 
 import sys
 
-from bbsd.cli.output import has_color, say
+from bbsd.cli.terminal.output import has_color, say
 from bbsd.errors import SpecError, UsageError, render_text
 
 MISTAKE = 2
