@@ -25,6 +25,7 @@ lint: $(VENV)/.test
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
+	$(BIN)/codespell
 
 unit: $(VENV)/.test
 	$(BIN)/pytest -n 2 --dist worksteal

@@ -60,16 +60,23 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    """Return a function of `bbsd.api`, which is imported only then: numba alone takes an eighth of a second."""
-    if name not in __all__:
-        raise AttributeError(f"module 'bbsd' has no attribute {name!r}")
-    from bbsd import api
+if not TYPE_CHECKING:  # so that type checkers find a misspelled name, and the types of the others
 
-    notebook = sys.modules.get("IPython")
-    if notebook is not None and (shell := notebook.get_ipython()) is not None:
-        load_ipython_extension(shell)
-    return getattr(api, name)
+    def __getattr__(name: str) -> object:
+        """Return a function of `bbsd.api`, which is imported only then: numba alone takes an eighth of a second."""
+        if name not in __all__:
+            raise AttributeError(f"module 'bbsd' has no attribute {name!r}")
+        from bbsd import api
+
+        notebook = sys.modules.get("IPython")
+        if notebook is not None and (shell := notebook.get_ipython()) is not None:
+            load_ipython_extension(shell)
+        return getattr(api, name)
+
+
+def __dir__() -> list[str]:
+    """Return all names, those too that are not imported yet, so that a Python prompt completes them."""
+    return sorted({*globals(), *__all__})
 
 
 def load_ipython_extension(shell: Any) -> None:  # noqa: ANN401 - IPython is optional

@@ -105,9 +105,16 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    """Return a verb, whose module is imported only then: what only reads a spec needs no compiler."""
-    for home, names in HOMES.items():
-        if name in names:
-            return getattr(import_module(home), name)
-    raise AttributeError(f"module 'bbsd.api' has no attribute {name!r}")
+if not TYPE_CHECKING:  # so that type checkers find a misspelled name, and the types of the others
+
+    def __getattr__(name: str) -> object:
+        """Return a verb, whose module is imported only then: what only reads a spec needs no compiler."""
+        for home, names in HOMES.items():
+            if name in names:
+                return getattr(import_module(home), name)
+        raise AttributeError(f"module 'bbsd.api' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return all names, those too that are not imported yet, so that a Python prompt completes them."""
+    return sorted({*globals(), *__all__})
