@@ -27,7 +27,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m fuzzing.faults", description=__doc__)
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"any of {', '.join(PARTS)} (default: all)")
     parser.add_argument("--step", type=int, default=1, help="a fault at each STEP-th call (default: 1)")
-    parser.add_argument("--case", type=int, help=f"only one case of calls, below {len(CASES)}")
+    parser.add_argument(
+        "--case",
+        type=int,
+        action="append",
+        choices=range(len(CASES)),
+        help="only this case of calls; several times",
+    )
     parser.add_argument("--kills", type=int, default=200, help="kills at random instants (default: 200)")
     parser.add_argument(
         "--states", type=int, default=50, help="checkpoints damaged and resumed (default: 50)"
@@ -43,7 +49,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory(prefix="bbsd-faults-") as name:
         folder = Path(name)
         spec = prepare(folder)
-        cases = CASES if options.case is None else CASES[options.case : options.case + 1]
+        cases = CASES if options.case is None else tuple(CASES[case] for case in options.case)
         trials = {
             "calls": lambda: try_calls(spec, folder, options.step, cases),
             "kills": lambda: try_kills(spec, folder, options.kills, options.seed),

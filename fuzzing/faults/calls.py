@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fuzzing.faults.commands import KILLED, METHODS, command, design, difference, written
 from fuzzing.faults.system import FAULTS, System
+from fuzzing.faults.worker import ForkedWorker
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -61,24 +62,31 @@ class Trial:
             shutil.copytree(self._before, whole)
         _require(self._disturbed(whole, "none", 0, log))
         self.expected = written(whole)
+        self.outcomes: dict[Fault, Counter[str]] = {fault: Counter() for fault in FAULTS}
+        """How often what followed."""
         self.calls = log.read_text(encoding="utf-8").splitlines()
 
     @staticmethod
     def _command(spec: Path, out: Path, case: Case, *more: str) -> list[str | Path]:
         return design(spec, out, METHODS[case.method], "--jobs", str(case.jobs), *more)
 
-    def _design(self, out: Path, *more: str, before: Callable[[], object] = lambda: None) -> Ended:
-        return command(*self._words(out, self.case, *more), before=before)
+    def _design(self, out: Path, *more: str, system: System | None = None) -> Ended:
+        return command(*self._words(out, self.case, *more), before=lambda: self._begin(system))
 
     def _disturbed(self, out: Path, fault: Fault, number: int, log: Path | None = None) -> Ended:
         system = System(out, fault, number, log)
         more = ("--more", "5000") if self.case.further else ()
-        return self._design(out, *more, before=lambda: self._begin(system))
+        return self._design(out, *more, system=system)
 
-    def _begin(self, system: System) -> None:
+    def _begin(self, system: System | None) -> None:
+        """Prepare a process of a command: its worker, then what disturbs it and not the worker."""
         from bbsd.runs import remote
         from bbsd.runs.storage import records
 
+        if self.case.jobs > 1:
+            ForkedWorker().install()
+        if system is None:
+            return
         for module in (records, remote):
             vars(module)["INTERVAL"] = self.case.interval
         system.install()
@@ -91,26 +99,34 @@ class Trial:
         if self.case.further:
             shutil.copytree(self._before, out)
         first = self._disturbed(out, fault, number)
-        if fault in ("kill", "power"):
-            if first.code not in (KILLED, 0):
-                return f"not killed but {first}"
-        elif first.code and not (first.is_refusal and str(out) in first.err):
-            return f"the fault is not told: {first}"
-        if first.code == 0 and (files := self._wrong(out)):
-            return f"exit code 0, and wrong are {files}"
-        return self._continued(out)
+        outcome, told = self._outcome(fault, first, out)
+        if not told:
+            resumed, told = self._continued(out)
+            outcome = f"{outcome}, {resumed}"
+        self.outcomes[fault]["wrong" if told else outcome] += 1
+        return told
 
-    def _continued(self, out: Path) -> str:
-        """Return what went wrong when a user continued."""
-        ended = self._design(out, "--resume")
+    def _outcome(self, fault: Fault, first: Ended, out: Path) -> tuple[str, str]:
+        """Return what a fault did to a command, and what was wrong with that."""
+        if first.code == 0:
+            files = self._wrong(out)
+            return "complete", files and f"exit code 0, and wrong are {files}"
+        if fault in ("kill", "power"):
+            return "killed", "" if first.code == KILLED else f"not killed but {first}"
+        is_told = first.is_refusal and str(out) in first.err
+        return "refused", "" if is_told else f"the fault is not told: {first}"
+
+    def _continued(self, out: Path) -> tuple[str, str]:
+        """Return how a user continued, and what went wrong when he did."""
+        how, ended = "resumed", self._design(out, "--resume")
         if ended.is_refusal and AGAIN in ended.err:
-            ended = self._design(out)
+            how, ended = "begun again as was said", self._design(out)
         if ended.code == 0 and self.case.further and len(_budgets(out)) == 1:
             ended = self._design(out, "--more", "5000")
         if ended.code:
-            return f"it does not go on: {ended}"
+            return how, f"it does not go on: {ended}"
         files = self._wrong(out)
-        return files and f"continued with exit code 0, and wrong are {files}"
+        return how, files and f"continued with exit code 0, and wrong are {files}"
 
     def _wrong(self, out: Path) -> str:
         return difference(written(out), self.expected)
@@ -143,4 +159,6 @@ def try_calls(
             for number in range(1 + (offset + index) % step, len(trial.calls) + 1, step):
                 name = f"{case}: {fault} at call {number}, {trial.calls[number - 1]}"
                 yield name, trial.broken(fault, number)
+            told = "; ".join(f"{count} {outcome}" for outcome, count in sorted(trial.outcomes[fault].items()))
+            print(f"calls: {case}: {fault}: {told}", flush=True)
         shutil.rmtree(place)

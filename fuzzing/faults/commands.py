@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
 import tempfile
+import threading
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from pathlib import Path
 
 SPEC = """bbsd: 1
 name: guess
@@ -145,13 +147,31 @@ def difference(there: dict[str, bytes], expected: dict[str, bytes]) -> str:
 
 
 def prepare(folder: Path) -> Path:
-    """Import what designs need, compile their kernels, and write the spec into a folder; return its file."""
+    """Write the spec into a folder; import what designs need, and load their kernels, for all that is forked from here.
+
+    Returns the spec's file.
+
+    Raises:
+        RuntimeError: this process has several threads, of which a fork would keep only one.
+    """
     import bbsd.api
     import bbsd.cli.design
     import bbsd.report.progress
     import bbsd.report.tables
-    import bbsd.runs.workers  # noqa: F401
+    import bbsd.runs.workers
 
     spec = folder / "guess.yaml"
     spec.write_text(SPEC, encoding="utf-8")
+    for method, settings in METHODS.items():
+        bbsd.api.design(spec, seed=1, runs=2, out=folder / f"first-{method}", overrides=settings)
+    if (threads := _threads()) != 1:
+        raise RuntimeError(f"{threads} threads are running; set OPENBLAS_NUM_THREADS=1")
+    gc.collect()
+    gc.freeze()  # a collection in a child would copy all pages
     return spec
+
+
+def _threads() -> int:
+    """Return the number of this process's threads, those of libraries included where the system tells."""
+    tasks = Path("/proc/self/task")
+    return len(list(tasks.iterdir())) if tasks.is_dir() else threading.active_count()
