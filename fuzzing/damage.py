@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from bbsd.expression.vocabulary import RESERVED
+from bbsd.expression.vocabulary import WORDS
 
 if TYPE_CHECKING:
     import random
@@ -36,7 +36,7 @@ EXPRESSIONS = [
     "lambda: 0", "x.__class__", "list(list(1 for i in range(100)) for j in range(100))", "'a' * 10 ** 9",
 ]
 # fmt: on
-WORDS = [*sorted(RESERVED), *SIGNS]
+WORDS_AND_SIGNS = [*sorted(WORDS), *SIGNS]
 
 
 def change_character(text: str, dice: random.Random) -> str:
@@ -61,7 +61,7 @@ def change_line(text: str, dice: random.Random) -> str:
 def replace_word(text: str, dice: random.Random) -> str:
     """Replace a word or sign by another."""
     parts = re.split(r"(\W)", text)
-    parts[dice.randrange(len(parts))] = dice.choice((*WORDS, *NAMES, *EXPRESSIONS, *parts))
+    parts[dice.randrange(len(parts))] = dice.choice((*WORDS_AND_SIGNS, *NAMES, *EXPRESSIONS, *parts))
     return "".join(parts)
 
 
@@ -90,7 +90,7 @@ def random_data(dice: random.Random, depth: int = 4) -> Any:  # noqa: ANN401 - a
 
 
 def _key(dice: random.Random) -> str:
-    return dice.choice((dice.choice(NAMES), dice.choice(sorted(RESERVED)), f"n{dice.randrange(30)}"))
+    return dice.choice((dice.choice(NAMES), dice.choice(sorted(WORDS)), f"n{dice.randrange(30)}"))
 
 
 def change_data(text: str, dice: random.Random) -> str:
@@ -155,7 +155,7 @@ def change_expression(text: str, dice: random.Random) -> str:
     parts = re.split(r"(\W)", text)
     match dice.randrange(5):
         case 0:
-            parts[dice.randrange(len(parts))] = dice.choice((*WORDS, *parts))
+            parts[dice.randrange(len(parts))] = dice.choice((*WORDS_AND_SIGNS, *parts))
         case 1:
             parts[dice.randrange(len(parts))] = f"({dice.choice(EXPRESSIONS)})"
         case 2:

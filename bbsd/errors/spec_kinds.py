@@ -56,9 +56,9 @@ SPEC_KINDS = (
         code="BB024",
         title="not a name",
         explanation=(
-            "Names are small letters, digits and _, beginning with a letter, and none of the language's "
-            "own words, such as step, team or open. A definition's key is a name, or a name with its "
-            "parameters: name(a, b)."
+            "Names are small letters, digits and _, beginning with a letter, and not a word that means something "
+            "else where they stand: what expressions use cannot be called step or team, a behavior not open. A "
+            "definition's key is a name, or a name with its parameters: name(a, b)."
         ),
         example="constants:\n  TopSpeed: 5",
         mend="constants:\n  top_speed: 5",

@@ -72,9 +72,22 @@ class Trace:
 
 
 def trace_columns(trace: Trace) -> Iterator[Column]:
-    """Yield all that a trace tells, one column after another; what is not known at the start is ''."""
+    """Yield all that a trace tells, one column after another; what is not known at the start is ''.
+
+    A column of the trace's own whose name a value of the spec has too, such as `action`, has an underscore behind it.
+    """
     for slot, values in trace.values.items():
         yield slot, [trace.start[slot], *values]
+    taken = {slot.name for slot in trace.values}
+    for slot, values in _columns_of_decisions(trace):
+        name = slot.name
+        while name in taken:
+            name += "_"
+        yield slot._replace(name=name), values
+
+
+def _columns_of_decisions(trace: Trace) -> Iterator[Column]:
+    """Yield who controlled and what was done, what was expected and earned, and what every behavior wanted."""
     for robot in range(trace.robots):
         yield Slot("controlling", robot), ["", *trace.controlling[robot]]
         yield Slot("action", robot), ["", *trace.actions[robot]]

@@ -205,7 +205,7 @@ def _conditional(expr: Conditional, scope: Scope) -> Node:
 def _call(expr: Call, scope: Scope) -> Value:
     name = expr.function
     binding = scope.names.get(name)
-    if isinstance(binding, Definition):
+    if isinstance(binding, Definition) and binding.parameters:
         return call_definition(expr, binding, scope, _value)
     if name in FUNCTIONS:
         return _function(expr, scope)
@@ -215,6 +215,8 @@ def _call(expr: Call, scope: Scope) -> Value:
         return _draw(expr, scope)
     if name == "before":
         return _before(expr, scope)
+    if isinstance(binding, Definition):
+        return call_definition(expr, binding, scope, _value)
     return _uncallable(expr, scope)
 
 

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.tree import Binary, Call, Comparison, Expr, Logical, Number, Truth, Unary
 from bbsd.expression.vocabulary import FUNCTIONS
+
+if TYPE_CHECKING:
+    from collections.abc import Container
 
 AGGREGATES_OF_NUMBERS = ("sum", "mean", "argmin", "argmax")
 AGGREGATES_OF_TRUTHS = ("any", "all")
 
 
-def kind_by_form(expr: Expr) -> Kind:
-    """Return number or truth where the outermost operation tells, else unknown."""
+def kind_by_form(expr: Expr, defined: Container[str] = ()) -> Kind:
+    """Return number or truth where the outermost operation tells, else unknown; `defined` are the spec's functions."""
     match expr:
+        case Call(function=name) if name in defined:
+            return Kind.UNKNOWN
         case Number() | Binary() | Unary(operator="-" | "+"):
             return Kind.NUMBER
         case Truth() | Comparison() | Logical() | Unary():

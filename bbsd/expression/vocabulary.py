@@ -1,4 +1,4 @@
-"""The words of the expression language: functions, aggregates, draws, and what is reserved."""
+"""The words of the expression language: functions, aggregates, draws, and all else that means something."""
 
 from __future__ import annotations
 
@@ -74,13 +74,33 @@ SOURCES = ("team", "others", "range")
 PARTITIONS = ("cut", "values")
 CELL_WORDS = ("otherwise", "below", "to", "from", "open", "no", "action", "nobody")
 OPERATORS = ("and", "or", "not", "if", "else", "for", "in", "is", "as", "def", "lambda", "true", "false")
-POSITIONS = ("step", "steps", "robot", "robots", "episode", "episodes", "generation", "generations", "before")
+POSITIONS: dict[str, str] = {
+    "step": "the number of the step",
+    "steps": "the number of steps of an episode",
+    "robot": "the index of the robot",
+    "robots": "the number of robots",
+    "episode": "the number of the episode",
+    "episodes": "the number of episodes of a lifetime",
+    "generation": "the number of the generation",
+    "generations": "the number of generations of a run",
+}
+"""Numbers that expressions can use without a spec naming them, and what they are."""
 YAML_WORDS = ("yes", "no", "on", "off", "null")
 
-RESERVED: frozenset[str] = frozenset().union(
-    FUNCTIONS, AGGREGATES, DRAWS, CONSTANTS, SOURCES, PARTITIONS, CELL_WORDS, OPERATORS, POSITIONS, YAML_WORDS
+WORDS: frozenset[str] = frozenset().union(
+    FUNCTIONS,
+    AGGREGATES,
+    DRAWS,
+    CONSTANTS,
+    SOURCES,
+    PARTITIONS,
+    CELL_WORDS,
+    OPERATORS,
+    POSITIONS,
+    YAML_WORDS,
+    ("before",),
 )
-"""Words that cannot name anything in a spec."""
+"""All words that mean something somewhere in a spec; most of them can be names all the same."""
 
-UNREADABLE: frozenset[str] = frozenset(kwlist) - RESERVED
-"""Words that can name behaviors and actions, but nothing that an expression uses."""
+UNREADABLE: frozenset[str] = frozenset(kwlist) - WORDS
+"""Words that mean nothing in the language, and that an expression cannot be read with, as Python keeps them."""

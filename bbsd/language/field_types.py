@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, GetPydanticSchema, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
 
+from bbsd.expression.reserved import RESERVED, Use, another_name
 from bbsd.expression.syntax.mistakes import ExpressionError
 from bbsd.expression.syntax.parsing import NAME, parse
 from bbsd.expression.syntax.text import number_text
-from bbsd.expression.vocabulary import RESERVED, UNREADABLE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from bbsd.expression.syntax.tree import Expr
 
 GROUPED = re.compile(r"[1-9][0-9]{0,2}(?:_[0-9]{3})+")
@@ -114,14 +112,9 @@ def kind_of(value: object) -> str:
     return "a number"
 
 
-def is_name(text: str) -> bool:
-    """Return whether a text can name something in a spec."""
-    return NAME.match(text) is not None and text not in RESERVED
-
-
 def is_value_name(text: str) -> bool:
-    """Return whether a text can name something that expressions use."""
-    return is_name(text) and text not in UNREADABLE
+    """Return whether a text can name something that expressions use without brackets."""
+    return NAME.match(text) is not None and text not in RESERVED[Use.VALUE]
 
 
 def shape(value: object) -> str:
@@ -145,13 +138,23 @@ def word_list_or_number(value: object) -> str:
 
 
 def name(value: str) -> str:
-    """Return a name of the spec's own; raise PydanticCustomError for a text that cannot be one."""
-    return _checked_name(value, is_name)
+    """Return a name that no expression uses; raise PydanticCustomError for a text that cannot be one."""
+    return _checked_name(value, Use.ANY)
+
+
+def behavior_name(value: str) -> str:
+    """Return a behavior's name; raise PydanticCustomError for a text that cannot be one."""
+    return _checked_name(value, Use.BEHAVIOR)
+
+
+def action_name(value: str) -> str:
+    """Return an action's name; raise PydanticCustomError for a text that cannot be one."""
+    return _checked_name(value, Use.ACTION)
 
 
 def value_name(value: str) -> str:
-    """Return a name of the spec's own that expressions can use; raise PydanticCustomError for another text."""
-    return _checked_name(value, is_value_name)
+    """Return a name that expressions use without brackets; raise PydanticCustomError for another text."""
+    return _checked_name(value, Use.VALUE)
 
 
 def signature(key: str) -> tuple[str, ...]:
@@ -166,21 +169,34 @@ def signature(key: str) -> tuple[str, ...]:
 def definition_key(value: str) -> str:
     """Return a definition's key, a name or a name with parameters; raise PydanticCustomError for another text."""
     names = signature(value)
-    if names and all(map(is_value_name, names)) and len(set(names)) == len(names):
-        return value
-    raise _bad_name(value, "cannot be a definition's name; write name or name(a, b), in small letters")
+    if not names or not all(map(NAME.match, names)):
+        raise _bad_name(value, "cannot be a definition's name; write name or name(a, b), in small letters")
+    own, *parameters = names
+    _checked_name(own, Use.FUNCTION if parameters else Use.VALUE)
+    for parameter in parameters:
+        _checked_name(parameter, Use.VALUE)
+        if names.count(parameter) > 1:
+            raise _bad_name(
+                value, f"has {parameter} twice; the parameters' names differ from it and from each other"
+            )
+    return value
 
 
-def _checked_name(value: str, is_valid: Callable[[str], bool]) -> str:
-    if is_valid(value):
-        return value
+def _checked_name(value: str, use: Use) -> str:
     if not NAME.match(value):
         raise _bad_name(value, "cannot be a name; names are small letters, digits and _, a letter first")
-    raise _bad_name(value, "is a word of the language and cannot be a name")
+    if value in RESERVED[use]:
+        raise _bad_name(
+            value,
+            f"cannot be {use.value}: {RESERVED[use][value]}",
+            f"write another one, such as {another_name(value)}",
+        )
+    return value
 
 
-def _bad_name(value: str, reason: str) -> PydanticCustomError:
-    return PydanticCustomError("bad_name", '"{name}" {reason}', {"name": value, "reason": reason})
+def _bad_name(value: str, reason: str, advice: str = "") -> PydanticCustomError:
+    context = {"name": value, "reason": reason, "advice": advice}
+    return PydanticCustomError("bad_name", '"{name}" {reason}', context)
 
 
 def cell(value: object) -> str:
@@ -208,10 +224,16 @@ TableText = Annotated[Any, BeforeValidator(nested)]
 """An expression, or a nested list of expressions."""
 
 NameText = Annotated[str, AfterValidator(name)]
-"""A name that is not a word of the language."""
+"""A name that no expression uses."""
+
+BehaviorNameText = Annotated[str, AfterValidator(behavior_name)]
+"""A behavior's name."""
+
+ActionNameText = Annotated[str, AfterValidator(action_name)]
+"""An action's name."""
 
 ValueNameText = Annotated[str, AfterValidator(value_name)]
-"""A name that expressions can use."""
+"""A name that expressions use without brackets."""
 
 DefinitionText = Annotated[str, AfterValidator(definition_key)]
 """A definition's name, perhaps with parameters."""

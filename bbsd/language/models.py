@@ -10,6 +10,8 @@ from pydantic_core import PydanticCustomError
 from bbsd.language.base import Entries, Part
 from bbsd.language.design import Design
 from bbsd.language.field_types import (
+    ActionNameText,
+    BehaviorNameText,
     CellText,
     DefinitionText,
     ExpressionText,
@@ -155,14 +157,13 @@ class Behavior(Part):
         None, description="Where the behavior is excited; by default always."
     )
     inputs: Annotated[
-        Annotated[list[str], Tag("<other>")]
-        | Annotated[Entries[ValueNameText, PartitionText], Tag("<mapping>")],
+        Annotated[list[str], Tag("<other>")] | Annotated[Entries[NameText, PartitionText], Tag("<mapping>")],
         Discriminator(shape),
     ] = Field(
         {},
         description="Its own partitions, or names: of sensors that are, of truths in the state; none: one cell.",
     )
-    actions: Entries[NameText, Entries[str, ExpressionText]] = Field(
+    actions: Entries[ActionNameText, Entries[str, ExpressionText]] = Field(
         description="For each action, the state it sets and the value."
     )
     rules: list[RuleText] | None = Field(
@@ -191,7 +192,7 @@ class Spec(Part):
     )
     environment: Environment = Field(description="The world, the robots, and what they sense.")
     view: View | None = Field(None, description="How an episode is drawn from above; none: as lines only.")
-    behaviors: Entries[NameText, Behavior] = Field(min_length=1, description="The behavior modules.")
+    behaviors: Entries[BehaviorNameText, Behavior] = Field(min_length=1, description="The behavior modules.")
     structure: list[str] | None = Field(
         None, description="Behaviors from the highest layer down, or open; none: to be learned."
     )

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
-from bbsd.expression.vocabulary import RESERVED
+from bbsd.expression.vocabulary import WORDS
 from bbsd.language.field_types import kind_of
 from bbsd.language.keys import blocks_with, field_at, fields_at
 from bbsd.language.models import Spec
@@ -43,7 +43,7 @@ def validate(data: Data) -> tuple[Spec | None, list[ErrorDetails]]:
 def form_mistakes(errors: Sequence[ErrorDetails], data: Data) -> list[LocatedMistake]:
     """Return the mistakes behind pydantic's errors, without those that only follow from another."""
     misspelled = {_misspelled(error, errors) for error in errors if error["type"] == "extra_forbidden"}
-    unreadable = frozenset().union(*map(names_lost, errors)) - RESERVED
+    unreadable = frozenset().union(*map(names_lost, errors)) - WORDS
     return [
         (path_of(error, data), _mistake(error, data))
         for error in errors
@@ -111,7 +111,7 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
         case "expression" | "mistake":
             return cast("Mistake", error["ctx"]["mistake"])
         case "bad_name":
-            return Mistake("BB024", error["msg"], KEY)
+            return Mistake("BB024", error["msg"], KEY, error["ctx"]["advice"])
         case "extra_forbidden":
             return _unexpected(path)
         case "missing":

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import re
 from inspect import getdoc
-from textwrap import fill
 from types import UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic_core import PydanticUndefined
 
 from bbsd.errors import KINDS
-from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, RESERVED
+from bbsd.expression.reserved import RESERVED, Use
+from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS
 from bbsd.language import design, models, outside, view
 from bbsd.language.base import Part
 from bbsd.language.field_types import Expression
@@ -38,7 +38,14 @@ BLOCKS: Mapping[str, tuple[type[Part], ...]] = {
 }
 """Headings, with the models that are described under each."""
 
-WIDTH = 110
+RESERVED_FOR = (
+    ("anything", Use.ANY, None),
+    ("behaviors", Use.BEHAVIOR, Use.ANY),
+    ("actions", Use.ACTION, Use.ANY),
+    ("what expressions use", Use.VALUE, Use.ANY),
+    ("definitions with parameters", Use.FUNCTION, Use.VALUE),
+)
+"""What names are for, in the order of the reference; each with what it has in common with others."""
 
 MARKED = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
@@ -71,8 +78,15 @@ def draws_text() -> str:
 
 
 def reserved_text() -> str:
-    """Return a list of the words that cannot be names."""
-    return fill(" ".join(f"`{word}`" for word in sorted(RESERVED)), WIDTH) + "\n"
+    """Return a table of the words that cannot be names, by the things that they cannot name, and why."""
+    rows: list[tuple[str, str, str]] = []
+    for things, uses, beside in RESERVED_FOR:
+        words = RESERVED[uses].items() - (RESERVED[beside].items() if beside else ())
+        by_reason: dict[str, list[str]] = {}
+        for word, reason in sorted(words):
+            by_reason.setdefault(reason.replace(f"{word}(...)", "it"), []).append(f"`{word}`")
+        rows += [(things, " ".join(taken), reason) for reason, taken in by_reason.items()]
+    return _table(("names of", "cannot be", "as"), rows)
 
 
 def mistakes_text() -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union, get
 
 from annotated_types import Ge, Le, MaxLen, MinLen
 
-from bbsd.expression.vocabulary import RESERVED, UNREADABLE
+from bbsd.expression.reserved import RESERVED, Use
 from bbsd.language import design, field_types, models, outside, view
 from bbsd.language.base import FREE, Part
 from bbsd.language.field_types import Expression
@@ -30,7 +30,9 @@ SCALAR: Schema = {"type": ["string", "number", "boolean"]}
 """An expression or the name of a cell; no $ref, for which editors would show another description than the key's."""
 LETTERS = "[a-z][a-z0-9_]*"
 PARAMETERS = rf"(?:\s*\(\s*{LETTERS}\s*(?:,\s*{LETTERS}\s*)*\))?\s*"
-NAME_ADVICE = "names are small letters, digits and _, a letter first, and no word of the language"
+NAME_ADVICE = (
+    "names are small letters, digits and _, a letter first, and no word that means something else there"
+)
 
 
 def language_schema() -> Schema:
@@ -79,9 +81,11 @@ def _definitions() -> Schema:
     table = {"type": "array", "items": _ref("constant")}
     return {
         "constant": {"description": "An expression, or a nested list of numbers.", "anyOf": [SCALAR, table]},
-        "name": _name(RESERVED),
-        "value_name": _name(RESERVED | UNREADABLE),
-        "definition": _name(RESERVED | UNREADABLE, PARAMETERS, r"\s*(?:\(|$)"),
+        "name": _name(RESERVED[Use.ANY]),
+        "behavior_name": _name(RESERVED[Use.BEHAVIOR]),
+        "action_name": _name(RESERVED[Use.ACTION]),
+        "value_name": _name(RESERVED[Use.VALUE]),
+        "definition": _definition_name(),
     }
 
 
@@ -89,8 +93,16 @@ def _ref(definition: str) -> Schema:
     return {"$ref": f"#/definitions/{definition}"}
 
 
-def _name(reserved: Iterable[str], rest: str = "", end: str = "$") -> Schema:
-    pattern = f"^(?!(?:{'|'.join(sorted(reserved))}){end}){LETTERS}{rest}$|^{FREE}"
+def _name(reserved: Iterable[str]) -> Schema:
+    pattern = f"^(?!(?:{'|'.join(sorted(reserved))})$){LETTERS}$|^{FREE}"
+    return {"type": "string", "pattern": pattern, "patternErrorMessage": NAME_ADVICE}
+
+
+def _definition_name() -> Schema:
+    """Return the schema of a definition's name; with parameters some more words are taken."""
+    of_value, of_function = RESERVED[Use.VALUE], RESERVED[Use.FUNCTION].keys() - RESERVED[Use.VALUE].keys()
+    taken = rf"(?:{'|'.join(sorted(of_value))})\s*(?:\(|$)|(?:{'|'.join(sorted(of_function))})\s*\("
+    pattern = f"^(?!{taken}){LETTERS}{PARAMETERS}$|^{FREE}"
     return {"type": "string", "pattern": pattern, "patternErrorMessage": NAME_ADVICE}
 
 
@@ -203,6 +215,8 @@ TYPE_SCHEMAS: Mapping[object, Schema] = {
 READER_SCHEMAS: Mapping[object, Schema] = {field_types.cell: SCALAR}
 NAME_SCHEMAS: Mapping[object, Schema] = {
     field_types.name: _ref("name"),
+    field_types.behavior_name: _ref("behavior_name"),
+    field_types.action_name: _ref("action_name"),
     field_types.value_name: _ref("value_name"),
     field_types.definition_key: _ref("definition"),
 }

@@ -142,7 +142,7 @@ def called(call: Call, scope: Scope) -> Value:
     values = [evaluate(argument, scope) for argument in arguments]
     if name in DRAWS:
         return scope.draw(call, scope.positions, values)
-    if name in scope.definitions:
+    if name in scope.definitions and scope.definitions[name].parameters:
         definition = scope.definitions[name]
         local = dict(zip(definition.parameters, values, strict=True))
         return evaluate(definition.body, replace(scope, local=local))

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from bbsd.architecture.needs.naming import before
 from bbsd.expression.graph import Graph, Level
-from bbsd.language.field_types import Expression, signature
+from bbsd.language.field_types import Expression
 from bbsd.language.meaning.episode import definitions_at, slots_read, starting_values, stored_sensors
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, scalars_by_slot
-from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
+from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among, within_definitions
 from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.situation import names_of
 
@@ -133,16 +133,11 @@ def _refilled(shape: Value, nodes: Iterator[Node]) -> Value:
 def sensor_order(spec: Spec) -> list[str]:
     """Return the sensors, each after those that it uses."""
     environment = spec.environment
-    definitions = {signature(key)[0]: expression for key, expression in environment.definitions.items()}
-    uses = {name: _names_in(sensor, definitions) for name, sensor in environment.sensors.items()}
+    uses = {name: _names_in(sensor, environment.definitions) for name, sensor in environment.sensors.items()}
     return dependency_order(uses_among(uses))
 
 
 def _names_in(sensor: PartitionText, definitions: Mapping[str, Expression]) -> frozenset[str]:
     """Return the names that a sensor uses, also within definitions."""
-    waiting, seen = [sensor] if isinstance(sensor, Expression) else [*sensor.values()], set[str]()
-    while waiting:
-        used = names_used_in(waiting) - seen
-        seen |= used
-        waiting = [definitions[name] for name in sorted(used & definitions.keys())]
-    return frozenset(seen)
+    own = [sensor] if isinstance(sensor, Expression) else [*sensor.values()]
+    return names_used_in(within_definitions(own, definitions))

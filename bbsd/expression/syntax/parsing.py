@@ -8,6 +8,7 @@ import re
 import warnings
 
 from bbsd.errors import character_name
+from bbsd.expression.reserved import RESERVED, Use
 from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
 from bbsd.expression.syntax.tree import (
     Binary,
@@ -25,7 +26,6 @@ from bbsd.expression.syntax.tree import (
     Unary,
 )
 from bbsd.expression.syntax.unreadable import EQUALITY, find_culprit
-from bbsd.expression.vocabulary import RESERVED
 
 MAX_LENGTH = 4000
 MAX_DEPTH = 40
@@ -127,7 +127,7 @@ def _error(code: str, message: str, start: int, length: int, advice: str = "") -
 
 
 def _is_free(name: str) -> bool:
-    return NAME.match(name) is not None and name not in RESERVED
+    return NAME.match(name) is not None and name not in RESERVED[Use.VALUE]
 
 
 class _Builder:

@@ -137,16 +137,20 @@ def parts(expr: Expr) -> tuple[Expr, ...]:
 
 
 def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[str]:
-    """Return all names and called functions in an expression that it does not bind itself."""
+    """Return all names in an expression that it does not bind itself, without those of functions."""
     match expr:
         case Name(name=name):
             return frozenset({name}) - hidden
-        case Call(function=function, arguments=arguments):
-            return (frozenset({function}) - hidden).union(*(names_used(part, hidden) for part in arguments))
         case Generator(element=element, names=names, source=source):
             return names_used(source, hidden) | names_used(element, hidden | frozenset(names))
         case _:
             return frozenset().union(*(names_used(part, hidden) for part in parts(expr)))
+
+
+def functions_called(expr: Expr) -> frozenset[str]:
+    """Return the names of all functions, aggregates, draws and definitions that an expression calls."""
+    own = {expr.function} if isinstance(expr, Call) else ()
+    return frozenset(own).union(*map(functions_called, parts(expr)))
 
 
 def stack_depth(expr: Expr) -> int:

@@ -213,9 +213,9 @@ def _own_partition(
     return elaborate_partition(text, scope.at(path, robot), path, robot)
 
 
-def _kind_by_form(sensor: PartitionText | None) -> Kind:
+def _kind_by_form(sensor: PartitionText | None, names: Names) -> Kind:
     """Return a sensor's kind by its form alone, even where the values in it could not be understood."""
-    return kind_by_form(sensor.tree) if isinstance(sensor, Expression) else Kind.UNKNOWN
+    return kind_by_form(sensor.tree, names.definitions) if isinstance(sensor, Expression) else Kind.UNKNOWN
 
 
 def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, robot: int) -> Partition | None:
@@ -240,7 +240,10 @@ def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, rob
         names.findings.report(path, "BB041", *_not_listed(name, names))
         return None
     value = elaboration.value(Name(name, WHOLE), scope.at(path, robot))
-    if isinstance(value, tuple) or Kind.NUMBER in (value.kind, _kind_by_form(environment.sensors.get(name))):
+    if isinstance(value, tuple) or Kind.NUMBER in (
+        value.kind,
+        _kind_by_form(environment.sensors.get(name), names),
+    ):
         what = "a list" if isinstance(value, tuple) else "a number"
         advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
         message = f"an input needs a partition, and {name} is {what}"

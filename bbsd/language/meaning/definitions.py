@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
 from bbsd.expression.syntax.mistakes import KEY
-from bbsd.expression.syntax.tree import names_used, stack_depth
+from bbsd.expression.syntax.tree import functions_called, names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
 from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
@@ -87,16 +87,19 @@ def report_unordered(
 ) -> dict[str, Unusable]:
     """Return and report the names whose values need themselves, or too long a chain of other values."""
     environment = spec.environment
+    functions = frozenset(name for name, definition in definitions.items() if definition.parameters)
     derived = {
-        name: Needs.of([definition.expression], definition.parameters)
+        name: Needs.of([definition.expression], functions, definition.parameters)
         for name, definition in definitions.items()
     }
     constants = {name: Needs.of(_trees(expressions_in(value))) for name, value in spec.constants.items()}
     starts = {
-        name: Needs.of([start.tree])
+        name: Needs.of([start.tree], functions)
         for name, start in (*environment.world.items(), *environment.state.items())
     }
-    sensors = {name: Needs.of(_trees(_conditions(sensor))) for name, sensor in environment.sensors.items()}
+    sensors = {
+        name: Needs.of(_trees(_conditions(sensor)), functions) for name, sensor in environment.sensors.items()
+    }
     paths = dict(reversed(shared_namespace(spec, definitions)))
     unordered = _report_circles(constants, paths, findings)
     # At the start there are no sensors yet, and later world and state are stored.
@@ -114,9 +117,12 @@ class Needs(NamedTuple):
     frames: int
 
     @classmethod
-    def of(cls, trees: Sequence[Expr], parameters: Sequence[str] = ()) -> Needs:
-        """Return what expressions need, in which the parameters are given."""
+    def of(
+        cls, trees: Sequence[Expr], functions: frozenset[str] = frozenset(), parameters: Sequence[str] = ()
+    ) -> Needs:
+        """Return what expressions need, in which the parameters are given, and functions are the spec's own."""
         used = frozenset[str]().union(*(names_used(tree, frozenset(parameters)) for tree in trees))
+        used |= functions & frozenset[str]().union(*map(functions_called, trees))
         return cls(used, FRAMES_OF_A_NAME + max(map(stack_depth, trees), default=0))
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.tree import names_used
+from bbsd.expression.syntax.tree import functions_called, names_used
+from bbsd.language.field_types import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from bbsd.language.field_types import Expression
 
 MAX_CIRCLES = 50
 """Circles reported of one spec: as many as mistakes are shown of it at most."""
@@ -20,8 +20,30 @@ Uses = dict[str, set[str]]
 
 
 def names_used_in(expressions: Iterable[Expression]) -> frozenset[str]:
-    """Return all names that some expressions use."""
+    """Return all names that some expressions use, without those of functions."""
     return frozenset().union(*(names_used(expression.tree) for expression in expressions))
+
+
+def functions_called_in(expressions: Iterable[Expression]) -> frozenset[str]:
+    """Return the names of all functions that some expressions call."""
+    return frozenset().union(*(functions_called(expression.tree) for expression in expressions))
+
+
+def within_definitions(
+    expressions: Iterable[Expression], definitions: Mapping[str, Expression]
+) -> list[Expression]:
+    """Return some expressions, and those of the definitions that they use, and these use, by their keys in a spec."""
+    by_name = {key.strip(): expression for key, expression in definitions.items() if "(" not in key}
+    by_function = {
+        key.partition("(")[0].strip(): expression for key, expression in definitions.items() if "(" in key
+    }
+    waiting, found = [*expressions], dict[int, Expression]()
+    while waiting:
+        found |= {id(expression): expression for expression in waiting}
+        used = [by_name[name] for name in sorted(names_used_in(waiting) & by_name.keys())]
+        used += [by_function[name] for name in sorted(functions_called_in(waiting) & by_function.keys())]
+        waiting = [expression for expression in used if id(expression) not in found]
+    return [*found.values()]
 
 
 def uses_among(uses: Mapping[str, frozenset[str]]) -> Uses:

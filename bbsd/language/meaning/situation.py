@@ -18,7 +18,7 @@ from bbsd.language.meaning.episode import (
 )
 from bbsd.language.meaning.moments import Moment
 from bbsd.language.meaning.names import Names
-from bbsd.language.meaning.order import names_used_in
+from bbsd.language.meaning.order import functions_called_in, within_definitions
 from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:
@@ -65,15 +65,10 @@ def definitions_at_the_start(meaning: Meaning) -> dict[Slot, Node]:
 def uncertain_sensors(spec: Spec) -> set[str]:
     """Return the sensors whose values do not follow from world and state alone: they draw, or use `before`."""
     environment = spec.environment
-    definitions = {key.partition("(")[0].strip(): [each] for key, each in environment.definitions.items()}
     uncertain = set[str]()
     for name, sensor in environment.sensors.items():
-        waiting, seen = [sensor] if isinstance(sensor, Expression) else [*sensor.values()], set[str]()
-        while waiting:
-            used = names_used_in(waiting) - seen
-            seen |= used
-            waiting = [expression for other in used for expression in definitions.get(other, ())]
-        if seen & {*DRAWS, "before"}:
+        own = [sensor] if isinstance(sensor, Expression) else [*sensor.values()]
+        if functions_called_in(within_definitions(own, environment.definitions)) & {*DRAWS, "before"}:
             uncertain.add(name)
     return uncertain
 

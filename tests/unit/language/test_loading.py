@@ -146,7 +146,42 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
         ("ends: speed > 3", 'unexpected key "ends" here'),
         ("design: {coevolution: {children: 3}}", "children must be 1 or 2, not 3"),
         ("design: {coevolution: {children: two}}", 'children must be 1 or 2, not text "two"'),
-        ("environment: {state: {yes: 0}}", '"yes" is a word of the language and cannot be a name'),
+        (
+            "environment: {state: {step: 0}}",
+            '"step" cannot be the name of a value: it is the number of the step',
+        ),
+        (
+            "constants: {'true': 0}",
+            '"true" cannot be the name of a value: it is a truth in YAML, not a text',
+        ),
+        (
+            "constants: {with: 0}",
+            '"with" cannot be the name of a value: it is a word of expressions',
+        ),
+        (
+            "environment: {definitions: {'mean(a, b)': a + b}}",
+            '"mean" cannot be the name of a definition with parameters: mean(...) is an aggregate, which takes lists',
+        ),
+        (
+            "environment: {definitions: {'f(step)': step}}",
+            '"step" cannot be the name of a value: it is the number of the step',
+        ),
+        (
+            "environment: {definitions: {'f(a, a)': a}}",
+            '"f(a, a)" has a twice; the parameters\' names differ from it and from each other',
+        ),
+        (
+            "environment: {definitions: {'f(A)': 1}}",
+            '"f(A)" cannot be a definition\'s name; write name or name(a, b), in small letters',
+        ),
+        (
+            "behaviors: {open: {actions: {go: {}}}}",
+            '"open" cannot be a behavior\'s name: in a structure it is a layer for any behavior',
+        ),
+        (
+            "behaviors: {stop: {actions: {open: {}}}}",
+            '"open" cannot be an action\'s name: in a rule it leaves a cell to be designed',
+        ),
     ],
 )
 def test_messages_are_in_a_designers_words(part: str, message: str) -> None:

@@ -4,7 +4,7 @@ import pytest
 
 from bbsd.expression import elaboration
 from bbsd.expression.syntax.parsing import parse
-from bbsd.expression.syntax.tree import names_used, parts, stack_depth
+from bbsd.expression.syntax.tree import functions_called, names_used, parts, stack_depth
 from tests.unit.expression.scopes import scope
 
 
@@ -15,11 +15,18 @@ def test_parts_are_in_the_order_of_the_text() -> None:
 
 
 def test_names_used_are_those_that_are_not_bound() -> None:
-    assert names_used(parse("sum(v * w + x for v, w in table) + v")) == {"sum", "w", "x", "table", "v"} - {
-        "w"
-    }
-    assert names_used(parse("f(a)[b] if c else d")) == {"f", "a", "b", "c", "d"}
+    assert names_used(parse("sum(v * w + x for v, w in table) + v")) == {"x", "table", "v"}
+    assert names_used(parse("f(a)[b] if c else d")) == {"a", "b", "c", "d"}
     assert names_used(parse("a + b"), frozenset({"a"})) == {"b"}
+
+
+def test_functions_called_are_those_with_brackets() -> None:
+    assert functions_called(parse("sum(floor(v) + floor for v in range(3))[g(1)]")) == {
+        "sum",
+        "floor",
+        "range",
+        "g",
+    }
 
 
 @pytest.mark.parametrize(

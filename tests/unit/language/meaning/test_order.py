@@ -9,6 +9,7 @@ from bbsd.language.meaning.order import (
     find_circles,
     names_used_in,
     uses_among,
+    within_definitions,
 )
 
 
@@ -24,6 +25,20 @@ def test_only_the_uses_of_each_other_count() -> None:
         "c": frozenset(),
     }
     assert uses_among(uses) == {"a": {"b", "c"}, "b": set(), "c": set()}
+
+
+def test_definitions_are_looked_into_by_how_they_are_used() -> None:
+    definitions = {
+        "floor": expression("ceiling - 1"),
+        "ceiling": expression("floor(3)"),
+        "near (a)": expression("a + far"),
+        "far": expression("2"),
+        "other": expression("1"),
+    }
+    texts = [
+        each.text for each in within_definitions([expression("floor + near(1) + other(1)")], definitions)
+    ]
+    assert texts == ["floor + near(1) + other(1)", "ceiling - 1", "a + far", "floor(3)", "2"]
 
 
 @pytest.mark.parametrize(
