@@ -14,6 +14,7 @@ from bbsd.errors.kind import Severity
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
+from bbsd.errors.word_kinds import WORD_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -29,7 +30,7 @@ def in_order_of_codes(kinds: Iterable[DiagnosisKind]) -> dict[str, DiagnosisKind
 
 
 KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
-    (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS, *ENVIRONMENT_KINDS)
+    (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS, *ENVIRONMENT_KINDS, *WORD_KINDS)
 )
 
 

@@ -12,6 +12,7 @@ from bbsd.errors import did_you_mean
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.vocabulary import WORDS
 from bbsd.language.field_types import kind_of
+from bbsd.language.goals import goal_mistake, is_block_of_costs, is_goal
 from bbsd.language.keys import blocks_with, field_at, fields_at
 from bbsd.language.models import Spec
 
@@ -92,6 +93,8 @@ def names_lost(error: ErrorDetails) -> frozenset[str]:
 def _misspelled(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> Path | None:
     """Return the path of the missing key that an unexpected one probably misspells."""
     *parent, key = error["loc"]
+    if is_goal(error["loc"]):
+        return ("reward",)
     missing = [
         other["loc"] for other in errors if other["type"] == "missing" and [*other["loc"][:-1]] == parent
     ]
@@ -112,8 +115,12 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
             return cast("Mistake", error["ctx"]["mistake"])
         case "bad_name":
             return Mistake("BB024", error["msg"], KEY, error["ctx"]["advice"])
+        case "extra_forbidden" if is_goal(path):
+            return goal_mistake(path, error["input"])
         case "extra_forbidden":
             return _unexpected(path)
+        case "not_an_expression" if is_block_of_costs(path):
+            return goal_mistake(path, error["input"])
         case "missing":
             return _missing(path, str(error["loc"][-1]))
         case "too_short" | "string_too_short":
