@@ -42,7 +42,7 @@ def curves(spec: str, overrides: Sequence[str], folder: Path) -> Floats:
     rows = []
     for seed in SEEDS:
         designed = bbsd.design(
-            spec_path(spec), seed=seed, out=folder / str(seed), overrides=(*overrides, *UNJUDGED)
+            spec_path(spec), seed=seed, out=folder / str(seed), set=(*overrides, *UNJUDGED)
         )
         lines = (designed.folder / "metrics.jsonl").read_text().splitlines()
         rows.append([json.loads(line)["mean"] for line in lines])

@@ -87,7 +87,7 @@ def population(spec: str, overrides: Sequence[str], folder: Path) -> Arm:
     rows = []
     for seed in SEEDS:
         designed = bbsd.design(
-            spec_path(spec), seed=seed, out=folder / str(seed), overrides=(*overrides, *UNJUDGED)
+            spec_path(spec), seed=seed, out=folder / str(seed), set=(*overrides, *UNJUDGED)
         )
         lines = (designed.folder / "metrics.jsonl").read_text().splitlines()
         rows.append([[json.loads(line)[key] for key in ("mean", "lifetime", "sd")] for line in lines])
@@ -103,7 +103,7 @@ def arm_of(rows: Floats) -> Arm:
 def lift(seed: int, folder: Path) -> Lift:
     """Design the task with a seed, and run an episode of the design in which robot 0 starts higher (Fig. 22)."""
     designed = bbsd.design(spec_path("paper/object_lifting"), seed=seed, out=folder / f"lift-{seed}")
-    episode = bbsd.trace(designed.architecture, overrides=[HIGHER])
+    episode = bbsd.trace(designed.architecture, set=[HIGHER])
     speeds, heights = (
         np.array([episode.values[Slot(name, robot)] for robot in range(3)], dtype=float)
         for name in ("speed", "height")

@@ -53,7 +53,7 @@ def lifting(folder: Path) -> list[Row]:
     means, lows, at_random = [], [], []
     for seed in SEEDS:
         designed = bbsd.design(LIFTING, seed=seed, out=folder / f"lifting-{seed}")
-        rival = bbsd.design(LIFTING, seed=seed, out=folder / f"random-{seed}", overrides=RANDOM_SEARCH)
+        rival = bbsd.design(LIFTING, seed=seed, out=folder / f"random-{seed}", set=RANDOM_SEARCH)
         at_random.append(float(returns(rival.architecture, FRESH).mean()))
         earned = returns(designed.architecture, FRESH)
         means.append(float(earned.mean()))

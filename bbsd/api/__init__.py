@@ -1,10 +1,11 @@
 """The commands as functions, for Python programs: load, check, compile, design, price, evaluate, trace, and so on.
 
-A spec is given as the path of its file, as the folder of a run, which stands for the design that came out, or as what
-`load` returned. `overrides` are texts such as
-"design.coevolution.generations=10"; they replace values of the spec. `seed` is that of all random numbers: the same
-spec, overrides and seed give the same result. `lanes`, the episodes that a kernel runs side by side, and `jobs` affect
-only the speed.
+A spec is given as the path of its file, as the folder of a run, which stands for the design that came out, as its text
+(with line breaks), as a dict, or as what `load` or `design` returned. `set` replaces values of the spec, as --set does
+on the command line: by texts such as "design.budget=300_000", or by a dict such as {"design.budget": 300_000}. `seed`
+is that of all random numbers: the same spec, `set` and seed give the same result. `lanes`, the episodes that a kernel
+runs side by side, and `jobs` affect only the speed. An argument is honored, or refused with
+`BadArgument`, a ValueError.
 """
 
 from importlib import import_module
@@ -15,11 +16,13 @@ if TYPE_CHECKING:
     from bbsd.api.appraising import faults, worth
     from bbsd.api.comparing import compare
     from bbsd.api.compiling import compile  # noqa: A004 - the verb
-    from bbsd.api.designing import design, price
     from bbsd.api.evaluating import evaluate
     from bbsd.api.explaining import explain
     from bbsd.api.exporting import Export, export
+    from bbsd.api.given.arguments import BadArgument
     from bbsd.api.looking import NoEnvironment, Spaces, spaces
+    from bbsd.api.making.designing import design
+    from bbsd.api.making.pricing import price
     from bbsd.api.paging import Page, page
     from bbsd.api.reasons import why
     from bbsd.api.results import (
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
         Interrupted,
         NoBudget,
         NothingToDesign,
+        NotWritten,
         Progress,
         SearchProgress,
     )
@@ -43,7 +47,8 @@ HOMES = {
     "bbsd.api.appraising": ("faults", "worth"),
     "bbsd.api.comparing": ("compare",),
     "bbsd.api.compiling": ("compile",),
-    "bbsd.api.designing": ("design", "price"),
+    "bbsd.api.making.designing": ("design",),
+    "bbsd.api.making.pricing": ("price",),
     "bbsd.api.evaluating": ("evaluate",),
     "bbsd.api.explaining": ("explain",),
     "bbsd.api.exporting": ("Export", "export"),
@@ -57,9 +62,11 @@ HOMES = {
         "Interrupted",
         "NoBudget",
         "NothingToDesign",
+        "NotWritten",
         "Progress",
         "SearchProgress",
     ),
+    "bbsd.api.given.arguments": ("BadArgument",),
     "bbsd.api.specs": ("AnySpec", "check", "load"),
     "bbsd.api.watching": ("runs_in", "watch"),
     "bbsd.api.tidying": ("tidy",),
@@ -72,12 +79,14 @@ __all__ = [
     "Agent",
     "AnyProgress",
     "AnySpec",
+    "BadArgument",
     "BestSoFar",
     "Designed",
     "Export",
     "Interrupted",
     "NoBudget",
     "NoEnvironment",
+    "NotWritten",
     "NothingToDesign",
     "Page",
     "Progress",

@@ -9,13 +9,14 @@ import numpy as np
 from bbsd.agent.inputs import AgentInput, BadInput
 from bbsd.agent.making import Design, design_of, program_of
 from bbsd.agent.program import Act, plain_functions
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.given.arguments import MOST_SEED, Assignments, checked, instance, optional, whole
+from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.architecture import architecture_of
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Collection, Mapping
 
     import numpy.typing as npt
 
@@ -38,6 +39,7 @@ class Agent:
     Sensors that draw, look at the world or at other robots are given; all others are computed.
     """
 
+    @checked()
     def __init__(
         self,
         spec: AnySpec,
@@ -47,7 +49,7 @@ class Agent:
         remembered: Collection[str] = (),
         not_finite: NotFinite = "refuse",
         seed: int = 0,
-        overrides: Sequence[str] = (),
+        set: Assignments = (),
     ) -> None:
         """Make the agent of a design.
 
@@ -58,7 +60,7 @@ class Agent:
             remembered: State that it keeps itself, though it could be given.
             not_finite: Whether numbers that are not finite are refused, or used as episodes do and counted.
             seed: Seed of the draws in constants and in actions.
-            overrides: Values that replace those of the spec.
+            set: Values that replace those of the spec.
 
         Raises:
             SpecError: with all mistakes of the spec.
@@ -66,11 +68,12 @@ class Agent:
             NotMeasured, NotRemembered: a name is of nothing that can be measured or remembered.
             BadInput: the team has no such robot.
         """
-        meaning = load(spec, seed=seed, overrides=overrides).meaning
+        meaning = loaded_from(spec, seed, set).meaning
         design = design_of(meaning, architecture_of(meaning), measured, remembered)
         self._make(design, robot, not_finite, seed)
 
     @classmethod
+    @checked()
     def team(
         cls,
         spec: AnySpec,
@@ -79,14 +82,15 @@ class Agent:
         remembered: Collection[str] = (),
         not_finite: NotFinite = "refuse",
         seed: int = 0,
-        overrides: Sequence[str] = (),
+        set: Assignments = (),
     ) -> tuple[Agent, ...]:
         """Return the agents of all robots of a team, sooner than one after the other; all else is as of one agent."""
-        meaning = load(spec, seed=seed, overrides=overrides).meaning
+        meaning = loaded_from(spec, seed, set).meaning
         design = design_of(meaning, architecture_of(meaning), measured, remembered)
         return cls.of(design, not_finite=not_finite, seed=seed)
 
     @classmethod
+    @checked(design=instance(Design))
     def of(cls, design: Design, *, not_finite: NotFinite = "refuse", seed: int = 0) -> tuple[Agent, ...]:
         """Return the agents of all robots with a design."""
         agents = tuple(cls.__new__(cls) for _ in range(design.n_robots))
@@ -145,6 +149,7 @@ class Agent:
         """What the agent keeps at the moment: state by name, and what was before, as `before x`."""
         return {slot.text(1): value for slot, value in zip(self._program.kept, self._kept, strict=True)}
 
+    @checked(key=optional(whole(0, MOST_SEED)))
     def reset(self, *, key: int | None = None) -> None:
         """Begin a new episode: forget what is kept, and count steps from 1 again.
 
@@ -208,7 +213,12 @@ class Agent:
             self._many = None
             return
         chosen = np.zeros(self._many.n, np.bool_)
-        chosen[np.asarray(where)] = True
+        try:
+            chosen[np.asarray(where)] = True
+        except (IndexError, ValueError, TypeError):
+            raise BadInput(
+                f"where are truths of {self._many.n} robots, or their indices, not {where!r:.60}"
+            ) from None
         self._many.reset(chosen)
 
     def _count_not_finite(self, rows: npt.NDArray[np.float64]) -> None:
@@ -232,6 +242,7 @@ class Agent:
 
         return answer_text(self.answer())
 
+    @checked()
     def answer(self, *, unwanted: Collection[str] = (), wanted: Collection[str] = ()) -> Answer:
         """Return why the last action was chosen, as `bbsd.why` does.
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.opening import opened_environment, problem_of
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, require_own_world
+from bbsd.api.given.arguments import Assignments, checked, whole
+from bbsd.api.given.environments import opened_environment, problem_of
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from, require_own_world
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from bbsd.environments.importing.modules import Announce
 
 
+@checked(episodes=whole(2))
 def worth(
     spec: AnySpec,
     *,
@@ -31,7 +33,7 @@ def worth(
     seed: int = 0,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Worth:
     """Say what the behaviors, layers and rules of a design are worth, and what stands out.
@@ -44,18 +46,15 @@ def worth(
         seed: Seed of the episodes, and of the draws in constants.
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Threads to use; affects only the speed.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         progress: Called with the numbers of parts done and of all.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         TooLongToWatch: an episode has too many steps to record who is excited.
-        ValueError: fewer than two episodes, of which no interval can be told.
     """
-    if episodes < 2:
-        raise ValueError("the worth of a design needs two episodes at least")
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_from(spec, seed, set)
     require_own_world(loaded)
     problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
@@ -64,6 +63,7 @@ def worth(
         return Appraisal(problem, design, evaluation_key(seed), episodes, generation).worth(progress)
 
 
+@checked(episodes=whole(2))
 def faults(
     spec: AnySpec,
     faults: Sequence[str],
@@ -73,7 +73,7 @@ def faults(
     relearn: bool = False,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     progress: Callable[[int, int], None] | None = None,
     allow_import: Sequence[str] = (),
     import_from: Sequence[str | Path] = (),
@@ -94,7 +94,7 @@ def faults(
         relearn: Learn the order of the layers again around each fault, with the tables as they are.
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Threads to use; affects only the speed.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         progress: Called with the numbers of faults done and of all.
         allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
             configuration file. A spec whose world is its own imports nothing.
@@ -110,13 +110,10 @@ def faults(
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         NoSuchFault: a fault is not understood, or of something that the spec does not have.
-        ValueError: fewer than two episodes, of which no interval can be told.
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
-    if episodes < 2:
-        raise ValueError("faults need two episodes at least")
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_from(spec, seed, set)
     found = read_faults(faults, loaded.meaning)
     opened = opened_environment(
         loaded, allow_import, import_from, environment, step_limit, announce, by_table, note

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, require_own_world
+from bbsd.api.given.arguments import Assignments, checked, whole
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from, require_own_world
 from bbsd.architecture import HolesLeft, given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -13,8 +14,6 @@ from bbsd.evaluation import evaluation_keys
 from bbsd.explanation.comparison import Comparison, Design, compare_designs, earned_by
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy as np
     from numpy.typing import NDArray
 
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
 
 
+@checked(episodes=whole(2))
 def compare(
     a: AnySpec,
     b: AnySpec,
@@ -30,7 +30,7 @@ def compare(
     seed: int = 0,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
 ) -> Comparison:
     """Say how a design B differs from a design A: in what it does, in its rules and order, and in what it earns.
 
@@ -41,16 +41,13 @@ def compare(
         seed: Seed of the episodes, and of the draws in constants.
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Threads to use; affects only the speed.
-        overrides: Values that replace those of both specs.
+        set: Values that replace those of both specs.
 
     Raises:
         SpecError: with all mistakes of a spec, or if a reward is not finite.
         HolesLeft: a spec has holes.
-        ValueError: fewer than two episodes, of which no interval can be told.
     """
-    if episodes < 2:
-        raise ValueError("a comparison needs two episodes at least")
-    one, other = (_design(load(spec, seed=seed, overrides=overrides), lanes, jobs) for spec in (a, b))
+    one, other = (_design(loaded_from(spec, seed, set), lanes, jobs) for spec in (a, b))
     streams = evaluation_keys(seed, episodes)
     return compare_designs(one, other, streams, (_earned(one, streams), _earned(other, streams)))
 

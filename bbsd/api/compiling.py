@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from bbsd.api.given.arguments import Assignments, checked
 from bbsd.api.specs import AnySpec, load
 from bbsd.compiler import Detail, compile_meaning, kernel_source
 from bbsd.compiler.problem import DEFAULT_LANES
@@ -12,12 +13,13 @@ from bbsd.errors import Diagnosis
 from bbsd.evaluation import RewardNotFinite
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from bbsd.language.loading import Loaded
 
 
-def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[str] = ()) -> str:  # noqa: A001 - the verb
+@checked()
+def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, set: Assignments = ()) -> str:  # noqa: A001 - the verb
     """Return the Python source of a spec's kernel: a rollout for the solver and one for evaluation.
 
     Where an environment is stepped in Python, between the phases of a step, there are functions for these.
@@ -25,7 +27,7 @@ def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, overrides: Sequence[st
     Raises:
         SpecError: with all mistakes of the spec.
     """
-    problem = compile_meaning(load(spec, overrides=overrides).meaning)
+    problem = compile_meaning(load(spec, set=set).meaning)
     details = (Detail.CREDIT, Detail.TERMS)
     return kernel_source(problem.meaning, problem.tables, lanes, details, in_phases=problem.is_stepped)
 

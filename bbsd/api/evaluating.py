@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from bbsd.api.given.arguments import Assignments, checked, optional, require_none, whole
 from bbsd.architecture import given_architecture
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
@@ -24,7 +25,7 @@ from bbsd.evaluation import (
 from bbsd.evaluation.exact.tables import exact_evaluation
 from bbsd.kernel.keys import own_keys
 from bbsd.kernel.streams import fold, name_word
-from bbsd.solver.judgement import RANDOM_EPISODES
+from bbsd.solver.judgement import RANDOM_AGENTS, RANDOM_EPISODES
 from bbsd.solver.random_agents import random_agents
 
 if TYPE_CHECKING:
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
     from bbsd.evaluation import Agents
     from bbsd.evaluation.episodes import Keys
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.opening import opened_environment, problem_of
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+from bbsd.api.given.environments import opened_environment, problem_of
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from
 
 
 class NoSingleEpisodes(UsageError):
@@ -51,17 +52,18 @@ EPISODES_OF_RANDOM_AGENT = RANDOM_EPISODES
 """Episodes of each random agent by default, as after a design."""
 
 
+@checked(episodes=optional(whole(1)))
 def evaluate(
     spec: AnySpec,
     *,
     episodes: int | None = None,
     seed: int = 0,
     fill: Literal["random"] | None = None,
-    agents: int = 1000,
+    agents: int = RANDOM_AGENTS,
     exact: bool = False,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     progress: Callable[[int, int], None] | None = None,
     keep_each: bool = False,
     allow_import: Sequence[str] = (),
@@ -86,7 +88,7 @@ def evaluate(
             optimum is given beside.
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Threads to use; affects only the speed.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         progress: Called from time to time with the numbers of finished and of all episodes.
         keep_each: Keep what each episode brought, as `each`.
         allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
@@ -107,7 +109,13 @@ def evaluate(
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
-    loaded = load(spec, seed=seed, overrides=overrides)
+    if fill is not None:
+        require_none(_given(exact=exact), "beside fill, which needs many agents instead of all starts")
+    else:
+        require_none(_given(agents=agents != RANDOM_AGENTS), 'without fill="random"')
+    if exact:
+        require_none(_given(episodes=episodes), "beside exact, which runs each possible start once")
+    loaded = loaded_from(spec, seed, set)
     opened = opened_environment(
         loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
     )
@@ -138,6 +146,11 @@ def evaluate(
         streams = evaluation_keys(seed, episodes or EPISODES_OF_DESIGN)
         outcomes = _reported(problem, agent, streams, generation, progress)
         return from_the_top(evaluation(problem, outcomes, 1, keep_each=keep_each), structure)
+
+
+def _given(**arguments: object) -> list[str]:
+    """Return the names of arguments that are given: neither None nor False."""
+    return [name for name, value in arguments.items() if value not in (None, False)]
 
 
 def _reported(

@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+from bbsd.api.given.arguments import Assignments, checked, whole
+from bbsd.api.given.sources import run_of
+from bbsd.api.results import Designed
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from
 from bbsd.architecture import architecture_of
 from bbsd.explanation import Explanation, explain_architecture
-from bbsd.language.loading import Loaded
-from bbsd.runs.storage.finished import ARCHITECTURE
 from bbsd.runs.storage.visits import read_visits
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from bbsd.architecture import Architecture
     from bbsd.architecture.visits import Visits
+    from bbsd.language.loading import Loaded
 
 
+@checked(episodes=whole(0))
 def explain(
-    spec: AnySpec, *, seed: int = 0, episodes: int = 0, worth: bool = False, overrides: Sequence[str] = ()
+    spec: AnySpec, *, seed: int = 0, episodes: int = 0, worth: bool = False, set: Assignments = ()
 ) -> Explanation:
     """Describe in words what the design of a spec does, layer by layer.
 
@@ -32,15 +32,15 @@ def explain(
         seed: Seed of the draws in constants, and of the episodes.
         episodes: Count anew, in so many episodes, how often each cell is asked.
         worth: Also measure, in 1,000 or so many episodes, what the design would earn without what seems useless.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
     """
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_from(spec, seed, set)
     architecture = architecture_of(loaded.meaning)
-    visits = _visits(spec, loaded, architecture, seed, episodes, is_changed=bool(overrides))
+    visits = _visits(spec, loaded, architecture, seed, episodes, is_changed=bool(set))
     if worth and visits is None:
         visits = _counted(loaded, architecture, seed, EPISODES_OF_DESIGN)
     explanation = explain_architecture(loaded.meaning, architecture, visits)
@@ -71,14 +71,15 @@ def _visits(
     """Return the visits that are wanted, or those that a run has kept; None where there are none."""
     if episodes:
         return _counted(loaded, architecture, seed, episodes)
-    if is_changed or isinstance(spec, Loaded):
+    if is_changed:
         return None
-    path = Path(spec)
-    folder = path if path.is_dir() else path.parent
-    if path.is_dir() or path.name == ARCHITECTURE:
-        cells = [len(table) for table in architecture.tables]
-        return read_visits(folder, dict(zip(loaded.spec.behaviors, cells, strict=True)))
-    return None
+    if isinstance(spec, Designed):
+        return spec.visits
+    folder = run_of(spec)
+    if folder is None:
+        return None
+    cells = [len(table) for table in architecture.tables]
+    return read_visits(folder, dict(zip(loaded.spec.behaviors, cells, strict=True)))
 
 
 def _counted(loaded: Loaded, architecture: Architecture, seed: int, episodes: int) -> Visits:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.given.arguments import Assignments, checked, require_none
+from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.architecture import architecture_of
 from bbsd.errors import UsageError, did_you_mean
 from bbsd.exports.exported import Options, exported_design
@@ -15,9 +16,13 @@ from bbsd.exports.verification.comparing import verify as verify_files
 from bbsd.exports.verification.following import Followed, follow
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection
 
     from bbsd.exports.exported import Files
+
+
+EPISODES = 3
+"""Recorded episodes beside which sensors are run, by default."""
 
 
 class NoSuchTarget(UsageError):
@@ -70,6 +75,7 @@ class Export:
         )
 
 
+@checked()
 def export(
     spec: AnySpec,
     to: str,
@@ -78,10 +84,10 @@ def export(
     sensing: bool = False,
     measured: Collection[str] = (),
     remembered: Collection[str] = (),
-    episodes: int = 3,
+    episodes: int = EPISODES,
     leaves: Literal["script", "custom"] = "script",
     seed: int = 0,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
 ) -> Export:
     """Write a design in another language.
 
@@ -95,7 +101,7 @@ def export(
         episodes: With `sensing`, recorded episodes beside which `verify` runs what was written.
         leaves: How the leaves of a tree are written.
         seed: Seed of the draws in constants.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
 
     Raises:
         SpecError: with all mistakes of the spec.
@@ -111,9 +117,11 @@ def export(
         raise NoLeaves(f"{to} has no {leaves} leaves")
     if sensing and to != "c":
         raise NoSensing(f"{to} has no sensors")
+    if not (verify and sensing):
+        require_none(["episodes"] if episodes != EPISODES else [], "without verify and sensing")
     if (measured or remembered) and not sensing:
         raise NoSensing("values are measured or remembered only where sensors are written")
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_from(spec, seed, set)
     exported = exported_design(loaded.meaning, architecture_of(loaded.meaning))
     target = TARGETS[to]
     options = Options(sensing, tuple(measured), tuple(remembered), leaves)

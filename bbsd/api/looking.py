@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd.api.opening import users_consent
+from bbsd.api.given.arguments import Assignments, assignments, checked, require_none
+from bbsd.api.given.environments import users_consent
+from bbsd.api.given.sources import AnySpec, source_of
 from bbsd.api.specs import load
 from bbsd.environments.for_spec import closed_folders, located, settings
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
@@ -19,13 +20,11 @@ from bbsd.language.lineage import read_lineage
 from bbsd.language.loading import Loaded
 from bbsd.language.outside import EXAMPLES, OUTSIDE_KINDS, TARGETS, Outside
 from bbsd.language.overrides import read_overrides, with_overrides
-from bbsd.runs.storage.finished import design_file
-from bbsd.text import Source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
 
-    from bbsd.api.specs import AnySpec
     from bbsd.environments.importing.modules import Announce
     from bbsd.environments.opening import Opened
     from bbsd.errors import SpecError
@@ -65,6 +64,7 @@ class Spaces:
         return f"<Spaces of {self.target}: {self.observation}, {self.action}>"
 
 
+@checked()
 def spaces(
     spec: AnySpec | None = None,
     *,
@@ -75,7 +75,7 @@ def spaces(
     import_from: Sequence[str | Path] = (),
     environment: Callable[..., Any] | None = None,
     step_limit: float = DEFAULT_LIMIT,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     announce: Announce | None = None,
 ) -> Spaces:
     """Look at the spaces of an environment: that of a spec, which need not be complete, or one that is named.
@@ -89,7 +89,7 @@ def spaces(
         import_from: Folders in which modules are looked for, after the installed environment.
         environment: A class in hand that is the spec's environment; nothing is imported for it.
         step_limit: Seconds that making it may take.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         announce: Called with each module and its file before it is imported.
 
     Raises:
@@ -98,7 +98,12 @@ def spaces(
         ImportNotAllowed, NoSuchModule, EnvironmentFailed, EnvironmentHangs: it cannot be opened.
     """
     named = {"gymnasium": gymnasium, "pettingzoo": pettingzoo, "python": python}
-    lineage, data = _spec_data(spec, overrides) if spec is not None else (None, _block(named))
+    if spec is not None:
+        others = [name for name, target in named.items() if target is not None]
+        require_none(others, "beside a spec, which names its environment")
+    else:
+        require_none(["set"] if set else [], "without a spec")
+    lineage, data = _spec_data(spec, set) if spec is not None else (None, _block(named))
     block = _environment(data)
     closed = closed_folders(lineage) if lineage is not None else ()
     allowed = users_consent(allow_import, import_from)
@@ -112,7 +117,7 @@ def spaces(
             refused.advice = misfit.advice
             raise refused from None
         raise located(error.misfits, lineage) from None
-    mistakes = _mistakes(spec, overrides, opened, block) if spec is not None else None
+    mistakes = _mistakes(spec, set, opened, block) if spec is not None else None
     return _described(opened, block, mistakes)
 
 
@@ -120,13 +125,13 @@ def _block(named: Mapping[str, str | None]) -> dict[str, Data]:
     return {"environment": {kind: target for kind, target in named.items() if target is not None}}
 
 
-def _spec_data(spec: AnySpec, overrides: Sequence[str]) -> tuple[Lineage, Data]:
+def _spec_data(spec: AnySpec, set: Assignments) -> tuple[Lineage, Data]:
     """Return a spec's files and its data, whether or not it is complete."""
-    if isinstance(spec, Loaded):
-        return spec.lineage, spec.data
-    lineage = read_lineage(Source.read(design_file(Path(spec))))
+    own = spec.overrides if isinstance(spec, Loaded) else ()
+    lineage = spec.lineage if isinstance(spec, Loaded) else read_lineage(source_of(spec))
     if lineage.mistakes:
         raise lineage.error(lineage.mistakes)
+    overrides = (*own, *assignments(set))
     return lineage, with_overrides(lineage.data, read_overrides(overrides), overrides)
 
 
@@ -153,13 +158,11 @@ def _outside(block: Mapping[str, Data]) -> Outside:
     return Outside(kind, target, arguments, (), ())
 
 
-def _mistakes(
-    spec: AnySpec, overrides: Sequence[str], opened: Opened, block: Mapping[str, Data]
-) -> SpecError | None:
+def _mistakes(spec: AnySpec, set: Assignments, opened: Opened, block: Mapping[str, Data]) -> SpecError | None:
     """Return where a spec that says what it observes or sends does not fit; None where it fits, or says neither yet."""
     if not {"observation", "action"} & block.keys():
         return None
-    loaded = load(spec, overrides=overrides)
+    loaded = load(spec, set=set)
     outside = loaded.spec.environment.outside
     if outside is None:
         return None

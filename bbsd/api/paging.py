@@ -11,7 +11,9 @@ from bbsd.api.appraising import worth
 from bbsd.api.comparing import compare
 from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, require_own_world
+from bbsd.api.given.arguments import Assignments, checked
+from bbsd.api.given.sources import is_path, name_of, path_of, run_of
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, loaded_from, require_own_world
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import chosen_episode, trace
@@ -19,6 +21,7 @@ from bbsd.evaluation.choosing import RANKS
 from bbsd.evaluation.faults import ALL, read_faults
 from bbsd.evaluation.situations import TooLongToWatch
 from bbsd.evaluation.streams import episode_key
+from bbsd.runs.storage.finished import RUN_FILE
 from bbsd.runs.storage.folder import Folder
 
 if TYPE_CHECKING:
@@ -98,6 +101,7 @@ class Page:
     """The faults that were asked for, as they are written."""
 
 
+@checked()
 def page(
     design: AnySpec,
     other: AnySpec | None = None,
@@ -105,7 +109,7 @@ def page(
     seed: int = 0,
     episodes: int = EPISODES_OF_DESIGN,
     faults: Sequence[str] = (),
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     progress: Progress | None = None,
 ) -> Page:
     """Gather what a page on a design shows; `bbsd.report.page.page_text` makes the page of it.
@@ -116,7 +120,7 @@ def page(
         seed: Seed of the episodes, and of the draws in constants.
         episodes: Number of episodes of the evaluation, as in `evaluate`.
         faults: Texts such as "robot=1:dead", as in `bbsd.faults`; every behavior silent is always shown.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         progress: Called from time to time with the part that is done, in percent, and 100.
 
     Raises:
@@ -125,7 +129,7 @@ def page(
         NoSuchFault: a fault is not understood, or of something that the spec does not have.
         NoDesign: a folder that is no run, or a run without an answer.
     """
-    loaded = load(design, seed=seed, overrides=overrides)
+    loaded = loaded_from(design, seed, set)
     require_own_world(loaded)
     wanted = [ALL, *faults]
     read_faults(wanted, loaded.meaning)
@@ -147,9 +151,7 @@ def page(
         faults=degradations(loaded, wanted, seed=seed, episodes=few, progress=_part(progress, 70, 100)),
         comparison=None
         if other is None
-        else compare(
-            loaded, load(other, seed=seed, overrides=overrides), episodes=max(2, episodes), seed=seed
-        ),
+        else compare(loaded, loaded_from(other, seed, set), episodes=max(2, episodes), seed=seed),
         other="" if other is None else _name(other),
         seed=seed,
         overrides=loaded.overrides,
@@ -165,7 +167,8 @@ def _part(progress: Progress | None, first: int, last: int) -> Progress | None:
 
 
 def _name(design: AnySpec) -> str:
-    return Path(design if isinstance(design, str | Path) else design.source.file).resolve().name
+    """Return the name of a design's file or folder; of one that is in neither, its own."""
+    return Path(path_of(design)).resolve().name if is_path(design) else name_of(design)
 
 
 def _replays(
@@ -195,10 +198,11 @@ def _worth(loaded: Loaded, seed: int, episodes: int, progress: Progress | None) 
 
 def _run(design: AnySpec, seed: int) -> Run | None:
     """Return the run that a folder holds."""
-    if not isinstance(design, str | Path) or not Path(design).is_dir():
+    path = run_of(design)
+    if path is None or not (path / RUN_FILE).is_file() or (is_path(design) and not path_of(design).is_dir()):
         return None
-    folder = Folder(Path(design))
+    folder = Folder(path)
     made = folder.design()
-    spec = load(made.spec, seed=made.seed, overrides=made.overrides)
+    spec = load(made.spec, seed=made.seed, set=made.overrides)
     beside = evaluate(spec, seed=seed, fill="random", agents=RANDOM_AGENTS)
     return Run(folder.read_run_file(), folder.lines(), spec, beside.returns)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.api.specs import AnySpec, load, require_own_world
+from bbsd.api.given.arguments import Assignments, checked, require_none
+from bbsd.api.specs import AnySpec, loaded_from, require_own_world
 from bbsd.architecture import architecture_of
 from bbsd.errors import UsageError
 from bbsd.explanation.why import Answer, answer_of, described_situation, situation_in
@@ -22,6 +23,7 @@ class NoMoment(UsageError):
     advice = "give --step N (and --episode), or describe a situation with --at NAME=VALUE"
 
 
+@checked()
 def why(
     spec: AnySpec,
     *,
@@ -32,7 +34,7 @@ def why(
     unwanted: Sequence[str] = (),
     wanted: Sequence[str] = (),
     seed: int = 0,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
 ) -> Answer:
     """Return why a robot did what it did: what each layer perceived and wanted, and which one controlled.
 
@@ -45,7 +47,7 @@ def why(
         unwanted: Actions or behaviors; for each, what would have had to be different for it not to control.
         wanted: Actions or behaviors; for each, what would have had to be different for it to control.
         seed: As in `evaluate`.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
 
     Raises:
         SpecError: with all mistakes of the spec.
@@ -56,9 +58,11 @@ def why(
         NoSuchAction: a name stands for nothing.
         AsItWas: what is unwanted did not control, or what is wanted did.
     """
-    loaded = load(spec, seed=seed, overrides=overrides)
+    loaded = loaded_from(spec, seed, set)
     if (step is None) is (not at):
         raise NoMoment("a step of an episode or a situation is needed" if step is None else "both are given")
+    if step is None:
+        require_none(["episode"] if episode != 0 else [], "without a step of it")
     architecture = architecture_of(loaded.meaning)
     number = None
     if step is None:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from bbsd.errors import UsageError
+from bbsd.runs.storage.finished import ARCHITECTURE
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from bbsd.evaluation import (
-        Evaluation,
-        Interval,
-    )
+    from bbsd.architecture.visits import Visits
+    from bbsd.evaluation import Evaluation, Interval
     from bbsd.runs.rivals import Rival
     from bbsd.runs.visits import Unvisited
     from bbsd.solver.judgement import Selection
@@ -22,9 +21,14 @@ AnyProgress: TypeAlias = "Progress | SearchProgress"
 
 
 class NothingToDesign(UsageError):
-    """A spec without holes was given to `design`."""
+    """A spec without holes, or a finished run, was given to `design`."""
 
     advice = "to have parts of it designed, leave them out: the rules of a behavior, or the structure"
+
+    def __init__(self, message: str, advice: str | None = None) -> None:
+        super().__init__(message)
+        if advice is not None:
+            self.advice = advice
 
 
 class NoBudget(UsageError):
@@ -33,22 +37,45 @@ class NoBudget(UsageError):
     advice = "name another method, such as --set design.method=auto"
 
 
-class Interrupted(KeyboardInterrupt):
-    """A design was stopped; its state is in `folder`, from which `design(..., resume=True)` continues."""
+class NotWritten(UsageError):
+    """The folder of a design is asked for that was written nowhere."""
 
-    def __init__(self, folder: Path) -> None:
-        super().__init__(str(folder))
-        self.folder = folder
+    advice = "name a folder: bbsd.design(..., out=FOLDER); the result itself has `text` and `metrics`"
+
+
+def _written(folder: Path | None) -> Path:
+    if folder is None:
+        raise NotWritten("the design was written into no folder")
+    return folder
+
+
+class Interrupted(KeyboardInterrupt):
+    """A design was stopped; its state is in `folder`, from which `design(..., resume=True)` continues.
+
+    Where the design is written nowhere, nothing is left but `best`.
+    """
+
+    def __init__(self, written: Path | None) -> None:
+        super().__init__("" if written is None else str(written))
+        self.written = written
+        """The folder, None where the design is written nowhere."""
         self.best: BestSoFar | None = None
         """The best design so far, None where there is none."""
+
+    @property
+    def folder(self) -> Path:
+        """The folder. Raises NotWritten where there is none."""
+        return _written(self.written)
 
 
 @dataclass(frozen=True, slots=True)
 class BestSoFar:
     """The best design of a search that was stopped, by a short race."""
 
-    architecture: Path
-    """The file of the designed spec."""
+    architecture: Path | None
+    """The file of the designed spec, None where nothing is written."""
+    text: str
+    """The designed spec."""
     mean: float
     episodes: int
     """Its mean return in the race, and the episodes of it."""
@@ -108,12 +135,18 @@ class SearchProgress:
 
 @dataclass(frozen=True, slots=True)
 class Designed:
-    """The result of a design."""
+    """The result of a design; every verb takes it in place of the designed spec."""
 
-    architecture: Path
-    """The file of the designed spec."""
-    folder: Path
-    """The folder of all files of the design."""
+    name: str
+    """What the design is called."""
+    text: str
+    """The designed spec."""
+    written: Path | None
+    """The folder of all files of the design, None where it was written nowhere."""
+    metrics: tuple[dict[str, Any], ...]
+    """The records of `metrics.jsonl`."""
+    visits: Visits = field(compare=False)
+    """How often each cell was asked, and the behavior controlled then, in episodes of the design."""
     method: str
     """The method that searched."""
     structure: tuple[str, ...]
@@ -150,6 +183,16 @@ class Designed:
     """Why the episodes of an environment that is stepped in Python cannot be repeated; '' where they can."""
 
     @property
+    def folder(self) -> Path:
+        """The folder of all files of the design. Raises NotWritten where there is none."""
+        return _written(self.written)
+
+    @property
+    def architecture(self) -> Path:
+        """The file of the designed spec. Raises NotWritten where there is none."""
+        return self.folder / ARCHITECTURE
+
+    @property
     def mean(self) -> float:
         """The mean return of the design."""
         return self.evaluation.mean
@@ -175,11 +218,11 @@ class Designed:
         Raises NoPandas where pandas is not installed.
         """
         from bbsd.evaluation.frames import metrics_frame
-        from bbsd.runs.storage.folder import Folder
 
-        return metrics_frame(Folder(self.folder).lines())
+        return metrics_frame(self.metrics)
 
     def __repr__(self) -> str:
         low, high = self.ci95
         structure = " ".join(self.structure)
-        return f"<Designed {self.architecture}: mean return {self.mean:.6g} ({low:.6g} to {high:.6g}), {structure}>"
+        what = self.name if self.written is None else self.architecture
+        return f"<Designed {what}: mean return {self.mean:.6g} ({low:.6g} to {high:.6g}), {structure}>"

@@ -2,38 +2,45 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
-
+from bbsd.api.given.arguments import RULES, Assignments, assignments, checked, optional
+from bbsd.api.given.sources import AnySpec, source_of
 from bbsd.errors import Diagnosis, SpecError
 from bbsd.language.loading import Loaded, loaded_again
 from bbsd.language.loading import check as check_source
 from bbsd.language.loading import load as load_source
-from bbsd.runs.storage.finished import design_file
-from bbsd.text import Source
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
+__all__ = ["EPISODES_OF_DESIGN", "AnySpec", "check", "load", "require_own_world"]
 
 EPISODES_OF_DESIGN = 1000
 """Episodes in which a design is measured, by default: of all verbs the same, so that their numbers agree."""
-AnySpec = str | Path | Loaded
-"""The path of a spec's file, the folder of a run, which stands for its design, or a loaded spec."""
 
 
-def load(spec: AnySpec, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
-    """Read and check a spec; random draws in its constants depend on the seed.
+@checked(seed=optional(RULES["seed"]))
+def load(spec: AnySpec, *, seed: int | None = None, set: Assignments = ()) -> Loaded:
+    """Read and check a spec.
 
-    Overrides change a spec that is loaded already too; the draws in its constants were made when it was loaded.
+    Args:
+        spec: The path of its file, the folder of a run, whose design is meant, its text (with line breaks), its data as
+            a dict, what `design` returned, or a spec that is loaded already. What a text or a dict extends is looked
+            for in the working folder.
+        seed: Seed of the draws in its constants; by default 0, or as they were drawn in a spec that is loaded already.
+        set: Values that replace those of the spec, also of one that is loaded already: texts such as
+            "design.budget=300_000", or a dict such as {"design.budget": 300_000}.
 
     Raises:
         SpecError: with all mistakes of the spec, or if its file cannot be read.
         NoDesign: a folder that is no run, or a run without an answer.
+        BadArgument: it is none of what a spec can be given as.
     """
     if isinstance(spec, Loaded):
-        return loaded_again(spec, seed=spec.meaning.seed, overrides=overrides)
-    return load_source(Source.read(design_file(Path(spec))), seed=seed, overrides=overrides)
+        drawn = spec.meaning.seed if seed is None else seed
+        return loaded_again(spec, seed=drawn, overrides=assignments(set))
+    return load_source(source_of(spec), seed=seed or 0, overrides=assignments(set))
+
+
+def loaded_from(spec: AnySpec, seed: int, set: Assignments = ()) -> Loaded:
+    """Return a spec as a verb uses it: the draws in the constants of one that is loaded already stay as they are."""
+    return load(spec, seed=None if isinstance(spec, Loaded) else seed, set=set)
 
 
 def require_own_world(loaded: Loaded) -> None:
@@ -49,13 +56,16 @@ def require_own_world(loaded: Loaded) -> None:
         raise not_imported(outside)
 
 
-def check(spec: str | Path) -> tuple[Diagnosis, ...]:
+@checked()
+def check(spec: AnySpec) -> tuple[Diagnosis, ...]:
     """Return all mistakes of a spec, none if it is correct.
 
+    A file that cannot be read is a mistake too.
+
     Raises:
-        OSError: its file cannot be read.
+        NoDesign: a folder that is no run, or a run without an answer.
     """
     try:
-        return check_source(Source.read(str(spec)))
+        return check_source(source_of(spec))
     except SpecError as error:
         return error.diagnoses

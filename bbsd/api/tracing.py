@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.compiling import located_reward_errors
-from bbsd.api.opening import opened_environment, problem_of
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load
+from bbsd.api.given.arguments import Assignments, checked, optional, require_none, whole
+from bbsd.api.given.environments import opened_environment, problem_of
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from
 from bbsd.architecture import given_architecture
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation import (
@@ -34,13 +35,14 @@ if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
 
 
+@checked(episodes=optional(whole(1)))
 def trace(
     spec: AnySpec,
     *,
     seed: int = 0,
     episode: int | Rank = 0,
-    episodes: int = EPISODES_OF_DESIGN,
-    overrides: Sequence[str] = (),
+    episodes: int | None = None,
+    set: Assignments = (),
     allow_import: Sequence[str] = (),
     import_from: Sequence[str | Path] = (),
     environment: Callable[..., Any] | None = None,
@@ -55,8 +57,8 @@ def trace(
         spec: A spec without holes.
         seed: As in `evaluate`.
         episode: Its number from 0, or "worst", "median" or "best" of the first `episodes`.
-        episodes: How many episodes to choose from.
-        overrides: Values that replace those of the spec.
+        episodes: How many episodes to choose from, where it is not a number; by default 1000.
+        set: Values that replace those of the spec.
         allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
             configuration file. A spec whose world is its own imports nothing.
         import_from: Folders in which modules are looked for, after the installed environment.
@@ -74,11 +76,15 @@ def trace(
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
-    loaded = load(spec, seed=seed, overrides=overrides)
+    if not isinstance(episode, str):
+        require_none([] if episodes is None else ["episodes"], "beside the number of an episode")
+    loaded = loaded_from(spec, seed, set)
     opened = opened_environment(
         loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
     )
-    number = episode_number(loaded, episode, episodes=episodes, seed=seed, opened=opened)
+    number = episode_number(
+        loaded, episode, episodes=episodes or EPISODES_OF_DESIGN, seed=seed, opened=opened
+    )
     problem = problem_of(loaded, opened, compiled=False)
     key = episode_key(seed, number)
     return trace_episode(

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bbsd.api.given.arguments import checked, path, paths
 from bbsd.api.specs import load
 from bbsd.errors import SpecError, UsageError
 from bbsd.runs.storage.finished import SPEC, run_content
@@ -29,6 +30,7 @@ class NoRun(UsageError):
     advice = "give the folder that bbsd design writes, as it names it with --out or below runs/"
 
 
+@checked(run=path)
 def watch(run: str | Path, *, interval: float = INTERVAL) -> Iterator[Watched]:
     """Yield how far a design is, now and after each change, until it is done or stopped.
 
@@ -56,6 +58,7 @@ def watch(run: str | Path, *, interval: float = INTERVAL) -> Iterator[Watched]:
         time.sleep(interval)
 
 
+@checked(places=paths)
 def runs_in(*places: str | Path) -> list[Listed]:
     """Return the runs in folders, each with its state, seed, and what came out so far; only read.
 
@@ -90,7 +93,7 @@ def generations(run: str | Path) -> int:
     if not (folder / SPEC).is_file():
         return 0
     try:
-        loaded = load(folder / SPEC, overrides=[str(each) for each in overrides])
+        loaded = load(folder / SPEC, set=[str(each) for each in overrides])
     except (SpecError, UsageError, OSError, TypeError):
         return 0
     design = loaded.spec.design

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal
 
 from bbsd.adapters.exchange import Exchange, Observe
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.given.arguments import Assignments, checked, require_none
+from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.errors import UsageError
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
 Library = Literal["gymnasium", "vector", "pettingzoo"]
+LANES = 40
+"""Lanes of a vector, by default."""
 
 
 class LibraryMissing(UsageError):
@@ -22,18 +22,15 @@ class LibraryMissing(UsageError):
         self.advice = f'pip install "bbsd[{library}]"'
 
 
-class NoSuchWorld(UsageError):
-    """A way to have a world that there is none of."""
-
-
+@checked()
 def env(
     spec: AnySpec,
     *,
     api: Library = "gymnasium",
     observe: Observe = "sensors",
-    lanes: int = 40,
+    lanes: int = LANES,
     seed: int = 0,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     compiled: bool = True,
 ) -> Any:  # noqa: ANN401 - the libraries are optional
     """Return a spec's own world as an environment in which another program chooses what the robots do.
@@ -51,21 +48,18 @@ def env(
             apart.
         lanes: Lanes of a `vector`.
         seed: The seed of the evaluation whose episodes are meant, and of the constants.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         compiled: Whether as machine code, which takes some seconds at the first time.
 
     Raises:
         SpecError: with all mistakes of the spec.
         NotOurWorld: the spec's world is somebody else's environment.
         LibraryMissing: Gymnasium or PettingZoo is not installed.
-        NoSuchWorld: another `api` or `observe`, or no lanes.
+        BadArgument: another `api` or `observe`, or lanes where there are none.
     """
-    for value, known in ((api, get_args(Library)), (observe, get_args(Observe))):
-        if value not in known:
-            raise NoSuchWorld(f"there is no {value!r} here, but {', '.join(known)}")
-    if lanes < 1:
-        raise NoSuchWorld(f"an environment has one lane or more, not {lanes}")
-    loaded = load(spec, seed=seed, overrides=overrides)
+    if api != "vector":
+        require_none(["lanes"] if lanes != LANES else [], 'without api="vector"')
+    loaded = loaded_from(spec, seed, set)
     exchange = Exchange(loaded.meaning, observe)
     generation = loaded.spec.design.coevolution.generations
     try:

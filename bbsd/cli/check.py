@@ -77,12 +77,11 @@ def _machine_text(diagnoses: Sequence[Diagnosis], form: MistakeFormat) -> str:
 
 def _size_or_error(spec: Path) -> tuple[str, SpecError | None]:
     """Return the size of a spec in words and None, or "" and its mistakes."""
-    from bbsd.language.loading import load
+    from bbsd.api.specs import load
     from bbsd.report.size import size_text
-    from bbsd.text import Source
 
     try:
-        return size_text(load(Source.read(spec)).meaning), None
+        return size_text(load(spec).meaning), None
     except SpecError as error:
         return "", error
 

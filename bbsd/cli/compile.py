@@ -7,4 +7,4 @@ from bbsd.cli.terminal.output import show
 
 def compile_(spec: SpecFile, lanes: Lanes = 40, overrides: Overrides = None) -> None:
     """Print the kernel that a spec is compiled to, as Python source."""
-    show(bbsd.compile(spec, lanes=lanes, overrides=overrides or ()))
+    show(bbsd.compile(spec, lanes=lanes, set=overrides or ()))

@@ -9,8 +9,7 @@ def config(spec: SpecFile, overrides: Overrides = None) -> None:
 
     Comments say where each value comes from: a line of a file, a default, or --set.
     """
-    from bbsd.language.loading import load
+    from bbsd.api.specs import load
     from bbsd.report.configuration import configuration_text
-    from bbsd.text import Source
 
-    show(configuration_text(load(Source.read(spec), overrides=overrides or ())))
+    show(configuration_text(load(spec, set=overrides or ())))

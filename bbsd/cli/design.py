@@ -1,7 +1,5 @@
 """`bbsd design`."""
 
-import shlex
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -10,6 +8,7 @@ import typer
 
 from bbsd.cli.access import stepping
 from bbsd.cli.budget import read_budget, read_seeds
+from bbsd.cli.continuing import former_design, say_how_to_continue
 from bbsd.cli.options import (
     AllowImport,
     AsJson,
@@ -18,8 +17,8 @@ from bbsd.cli.options import (
     Lanes,
     Overrides,
     Seed,
-    SpecFile,
     StepLimit,
+    spec_files,
 )
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
 from bbsd.cli.terminal.interrupts import INTERRUPTED
@@ -30,18 +29,29 @@ from bbsd.report.plain import design_plain, disagreement_plain, json_text
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from bbsd.api import Designed, Interrupted
+    from bbsd.api import Designed
     from bbsd.cli.access import Stepping
     from bbsd.language.loading import Loaded
 
 LEAST_BUDGET = 5_000
 """As in `bbsd.language.design`, which takes long to import."""
+RUNS = Path("runs")
+"""Where designs are written that name no folder."""
 DRAWING = 0.5
 """Approximate seconds to import matplotlib and draw the curves."""
 
 
 def design(
-    spec: SpecFile,
+    context: typer.Context,
+    spec: Annotated[
+        Path,
+        typer.Argument(
+            metavar="SPEC",
+            help="The spec, a YAML file; with --resume or --more also the folder of a design.",
+            show_default=False,
+            autocompletion=spec_files,
+        ),
+    ],
     seed: Seed = 0,
     runs: Annotated[
         int, typer.Option(metavar="N", min=1, help="Independent runs; the best of their designs is kept.")
@@ -149,8 +159,7 @@ def design(
     Searches for the behaviors and the structure by the method and the budget that the spec names, and writes a
     folder with the designed spec, the metrics on the way, and the state from which --resume continues.
     """
-    from bbsd.language.loading import load
-    from bbsd.text import Source
+    from bbsd.api.specs import load
 
     opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     require_engine(engine, scheduler)
@@ -159,14 +168,12 @@ def design(
     set_by_budget, within = read_budget(budget)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
     if spec.is_dir():
-        from bbsd.runs.storage.folder import Folder
-
         # The folder of a design names its spec, its seed and its settings.
-        former = Folder(spec).design()
-        spec, out, resume = former.spec, spec, True
+        former = former_design(spec, context, goes_on=resume)
+        spec, out = former.spec, spec
         seed, runs, overrides = former.seed, former.runs, [*former.overrides, *set_by_budget]
     # Mistakes are shown before anything heavy is imported, and workers import it at the same time as this process.
-    loaded = load(Source.read(str(spec)), seed=seed, overrides=overrides)
+    loaded = load(spec, seed=seed, set=overrides)
     if not quiet:
         _say_which_method(loaded)
     processes = 0 if resume or seeds else min(runs, jobs) - 1
@@ -185,7 +192,7 @@ def design(
         def leave(stopped: api.Interrupted) -> None:
             """End the process at once: what was written is complete."""
             console.show_cursor()
-            _say_how_to_continue(stopped, begin="\n" if console.is_terminal and not quiet else "")
+            say_how_to_continue(stopped, begin="\n" if console.is_terminal and not quiet else "")
             leave_now(INTERRUPTED)
 
         def design_one(loaded: "Loaded", seed: int, out: Path | None, *, resume: bool) -> "Designed":
@@ -195,6 +202,7 @@ def design(
                     seed=seed,
                     runs=runs,
                     out=out,
+                    below=RUNS if out is None else None,
                     resume=resume,
                     lanes=lanes,
                     jobs=jobs,
@@ -209,18 +217,18 @@ def design(
 
         try:
             if seeds is not None:
-                base = out or Path("runs") / f"{spec.stem}-seeds{seeds}"
+                base = out or RUNS / f"{spec.stem}-seeds{seeds}"
                 several = {}
                 for each in read_seeds(seeds):
                     part = base / f"seed-{each}"
-                    text = load(Source.read(str(spec)), seed=each, overrides=overrides)
+                    text = load(spec, seed=each, set=overrides)
                     several[each] = design_one(text, each, part, resume=resume and part.exists())
                     _write_events(several[each], tensorboard and tensorboard / f"seed-{each}")
                 _show_seeds(several, as_json=as_json)
                 return
             designed = design_one(loaded, seed, out, resume=resume)
         except api.Interrupted as stopped:
-            _say_how_to_continue(stopped, out=out if seeds is None else base)
+            say_how_to_continue(stopped, out=out if seeds is None else base)
             raise typer.Exit(INTERRUPTED) from None
     _show(designed, seed, runs, by_time=within is not None, as_json=as_json)
     figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
@@ -274,29 +282,6 @@ def _say_which_method(loaded: "Loaded") -> None:
             f"the spec has {keys} and names no method, so it is designed by the paper's loop (method: paper); "
             "method: auto would search with several methods on one budget (--set design.method=auto)"
         )
-
-
-def _say_how_to_continue(stopped: "Interrupted", begin: str = "", out: Path | None = None) -> None:
-    best = stopped.best
-    kept = f"stopped; what was done is kept in {stopped.folder}."
-    if best is not None:
-        kept += (
-            f" The best so far, {best.architecture}, earned {best.mean:.6g} in {best.episodes:,} episodes."
-        )
-    say(f"{begin}{kept} To continue: {_resume_command(out or stopped.folder)}")
-
-
-def _resume_command(folder: Path) -> str:
-    """Return the command that continues in a folder: the one given, with --resume and without a further budget."""
-    words = sys.argv[1:]
-    value_of_more = {index + 1 for index, word in enumerate(words) if word == "--more"}
-    given = [
-        word
-        for index, word in enumerate(words)
-        if index not in value_of_more and word.partition("=")[0] not in ("--more", "--resume")
-    ]
-    named = any(word.partition("=")[0] == "--out" for word in given) or str(folder) in given
-    return shlex.join(["bbsd", *given, *([] if named else ["--out", str(folder)]), "--resume"])
 
 
 def _make_folder(folder: Path | None) -> None:

@@ -164,7 +164,7 @@ def evaluate(
     if exact and isinstance(chosen, str):
         raise typer.BadParameter(f"--episode {chosen} is among random episodes, so it excludes --exact")
     _require_outputs(returns, trace, plot)
-    loaded = bbsd.load(spec, seed=seed, overrides=overrides or ())
+    loaded = bbsd.load(spec, seed=seed, set=overrides or ())
     if expect_at_least is not None:
         _require_expectations(loaded)
     require_names(values or (), names_to_show(loaded.spec))

@@ -101,7 +101,7 @@ def export(
         episodes=episodes,
         leaves=leaves.value,
         seed=seed,
-        overrides=overrides or (),
+        set=overrides or (),
     )
     _write(exported, out)
     if verify:

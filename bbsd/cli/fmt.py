@@ -42,9 +42,11 @@ def fmt(
 
 def _format(spec: Path, *, check: bool, diff: bool) -> int:
     """Format one file and return the exit code for it."""
+    from bbsd.runs.storage.finished import design_file
     from bbsd.text import Source
 
     try:
+        spec = design_file(spec)
         source = Source.read(spec)
         formatted = _formatted_text(source)
     except SpecError as error:

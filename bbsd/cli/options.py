@@ -32,7 +32,10 @@ SUFFIXES = {".yaml", ".yml"}
 SpecFile = Annotated[
     Path,
     typer.Argument(
-        metavar="SPEC", help="The spec, a YAML file.", show_default=False, autocompletion=spec_files
+        metavar="SPEC",
+        help="The spec, a YAML file; the folder of a run stands for its design.",
+        show_default=False,
+        autocompletion=spec_files,
     ),
 ]
 

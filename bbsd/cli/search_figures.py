@@ -48,13 +48,11 @@ def draw_search(
     if not figures:
         return
     from bbsd import api
-    from bbsd.runs.storage.folder import Folder
 
     returns = {"random agents": designed.random.mean}
     if beside is not None:
         compared = api.load(beside, seed=seed)
         returns[compared.spec.name] = api.evaluate(compared, seed=seed, **opening).mean
     title = f"{name}, seed {seed}: the design earns {number(designed.mean)}"
-    lines = Folder(designed.folder).lines()
     for path in figures:
-        draw_curves(lines, path, title=title, beside=returns)
+        draw_curves(designed.metrics, path, title=title, beside=returns)

@@ -54,7 +54,7 @@ def spaces(
         gymnasium=gymnasium,
         pettingzoo=pettingzoo,
         python=python,
-        overrides=overrides or (),
+        set=overrides or (),
         **access(allow_import, import_from, step_limit),
     )
     _show(found, as_json=as_json)

@@ -33,6 +33,24 @@ class Source:
         file = str(path)
         return _decoded(file, _content(file))
 
+    @classmethod
+    def given(cls, name: str, text: str) -> Source:
+        """Return a text that is in no file, under the name by which diagnoses show it.
+
+        Raises SpecError for what no file could hold: a text of more than 1 MB, or one that is not Unicode.
+        """
+        try:
+            content = text.encode("utf-8")
+        except UnicodeEncodeError as error:
+            source = cls(name, text.encode("utf-8", "replace").decode("utf-8"))
+            message = (
+                f"the character U+{ord(text[error.start]):04X} is half of one, and not Unicode by itself"
+            )
+            raise SpecError([Diagnosis("BB003", message, source.place(error.start))], source) from None
+        if len(content) > MAX_BYTES:
+            raise _refused(name, "BB002", "the text has more than 1 MB, which no spec needs")
+        return cls(name, text.removeprefix(BYTE_ORDER_MARK))
+
     @cached_property
     def _starts(self) -> list[int]:
         return [0, *(match.end() for match in LINE_BREAK.finditer(self.text))]

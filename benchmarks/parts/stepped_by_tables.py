@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bbsd.api.opening import opened_environment, problem_of
+from bbsd.api.given.environments import opened_environment, problem_of
 from bbsd.api.specs import load
 from bbsd.evaluation import detailed_outcomes, evaluation_keys, returns_of
 from bbsd.solver.random_agents import random_agents

@@ -97,7 +97,7 @@ def _paper(where: Task, budget: int, seed: int) -> Answer:
     count = search_budget(budget) // each
     if count < 1:
         raise CannotDesign(f"a generation of the paper's loop takes {each:,} episodes")
-    loaded = bbsd.load(path, overrides=[f"design.coevolution.generations={count}"])
+    loaded = bbsd.load(path, set=[f"design.coevolution.generations={count}"])
     problem, settings = compile_meaning(loaded.meaning), settings_of(loaded.meaning)
     states = (
         reached.state

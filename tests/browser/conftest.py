@@ -54,7 +54,7 @@ def spec(name):
 def run_page(folder):
     """Return the page on the design of a small run, beside the hand-made one: the page that has most on it."""
     task = ROOT / "specs" / "object_lifting.yaml"
-    designed = bbsd.design(task, seed=1, runs=2, out=folder / "small-run", overrides=SMALL_RUN)
+    designed = bbsd.design(task, seed=1, runs=2, out=folder / "small-run", set=SMALL_RUN)
     return bbsd.page(designed.folder, spec("lifting"), episodes=20)
 
 

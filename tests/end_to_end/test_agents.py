@@ -45,7 +45,7 @@ def test_agents_in_our_own_worlds_earn_what_is_evaluated(name):
 
 @pytest.mark.slow
 def test_an_agent_of_a_design_earns_what_is_evaluated(tmp_path):
-    bbsd.design(SPECS / "object_lifting.yaml", seed=1, out=tmp_path / "run", overrides=["design.budget=5000"])
+    bbsd.design(SPECS / "object_lifting.yaml", seed=1, out=tmp_path / "run", set=["design.budget=5000"])
     evaluated = bbsd.evaluate(tmp_path / "run", episodes=3, keep_each=True)
     assert own_returns(tmp_path / "run", 3) == list(evaluated.each.returns)
 

@@ -92,7 +92,7 @@ def planted(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.syspath_prepend("")
     monkeypatch.setenv("BBSD_ALLOW_IMPORT", "*")
-    monkeypatch.setattr("bbsd.api.opening.configuration_file", lambda: None)
+    monkeypatch.setattr("bbsd.api.given.environments.configuration_file", lambda: None)
     return Planted(tmp_path)
 
 
@@ -142,7 +142,7 @@ def test_2_not_even_what_the_configuration_allows(planted, monkeypatch, words):
     path = planted.folder / "own.yaml"
     path.write_text(f"allow_import: [{planted.module}]\n", encoding="utf-8")
     path.chmod(0o600)
-    monkeypatch.setattr("bbsd.api.opening.configuration_file", lambda: path)
+    monkeypatch.setattr("bbsd.api.given.environments.configuration_file", lambda: path)
     monkeypatch.setattr("bbsd.environments.for_spec.closed_folders", lambda _lineage: ())
     command, *options = words
     err = planted.refuses(command, planted.spec(), *options)
@@ -257,7 +257,7 @@ def test_14_a_configuration_beside_the_spec_is_not_read(planted, name):
 def test_15_a_configuration_that_others_may_write_allows_nothing(planted, monkeypatch):
     path = planted.folder / "config.yaml"
     path.write_text(f"allow_import: [{planted.module}]\n", encoding="utf-8")
-    monkeypatch.setattr("bbsd.api.opening.configuration_file", lambda: path)
+    monkeypatch.setattr("bbsd.api.given.environments.configuration_file", lambda: path)
     path.chmod(0o666)
     err = planted.refuses("evaluate", planted.spec(), "--import-from", planted.folder)
     assert "others than its owner may write this file" in err

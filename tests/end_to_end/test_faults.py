@@ -71,7 +71,7 @@ def design(spec, out, settings, system, *, resume=False):
         patch.setattr(files, "os", system)
         patch.setattr(records, "os", system)
         patch.setattr(records, "INTERVAL", 0.0)
-        return bbsd.design(spec, seed=1, runs=2, out=out, overrides=settings, resume=resume)
+        return bbsd.design(spec, seed=1, runs=2, out=out, set=settings, resume=resume)
 
 
 def written(out):

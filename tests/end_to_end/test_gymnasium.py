@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import bbsd
-from bbsd.api.opening import opened_environment
+from bbsd.api.given.environments import opened_environment
 from bbsd.architecture import given_architecture
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import agents_of, returns_of
@@ -23,7 +23,7 @@ HAND_MADE = {
 
 def problem_of(name, *overrides):
     """A spec of an environment that is stepped, as plain Python."""
-    loaded = bbsd.load(SPECS / f"{name}.yaml", overrides=overrides)
+    loaded = bbsd.load(SPECS / f"{name}.yaml", set=overrides)
     opened = opened_environment(loaded, allow_import=ALLOWED, by_table=False)
     return compile_meaning(loaded.meaning, compiled=False, lanes=4, stepper=opened.stepper)
 
@@ -56,7 +56,7 @@ def test_a_small_budget_keeps_the_pole_up_and_two_processes_design_the_same(tmp_
             seed=1,
             out=tmp_path / folder,
             jobs=jobs,
-            overrides=["environment.steps=60", "design.budget=5000"],
+            set=["environment.steps=60", "design.budget=5000"],
             allow_import=ALLOWED,
         )
     one, two = (tmp_path / folder / "architecture.yaml" for folder in ("one", "two"))

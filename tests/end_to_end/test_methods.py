@@ -121,7 +121,7 @@ def test_a_cell_is_the_design_of_the_command(tmp_path):
         Task("object_lifting").path,
         seed=3,
         out=tmp_path / "run",
-        overrides=["design.method=random", "design.budget=5000"],
+        set=["design.method=random", "design.budget=5000"],
     )
     assert found.structure == designed.structure
     problem = compile_meaning(bbsd.load(designed.architecture).meaning)

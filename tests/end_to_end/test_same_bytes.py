@@ -69,7 +69,7 @@ def designed(path: Path, folder: Path, settings: tuple[str, ...]) -> str:
     lines = []
     for seed in SEEDS:
         out = folder / str(seed)
-        bbsd.design(path, seed=seed, out=out, overrides=[f"design.{each}" for each in settings])
+        bbsd.design(path, seed=seed, out=out, set=[f"design.{each}" for each in settings])
         written = (out / "architecture.yaml", out / "metrics.jsonl")
         lines += [f"{seed} {path.name} {digest(path.read_bytes())}\n" for path in written]
     return "".join(lines)
@@ -101,7 +101,7 @@ def sources_of(path: Path, *overrides: str) -> list[tuple[Detail, str]]:
     Nor of one whose world is stepped in Python.
     """
     try:
-        problem = compile_meaning(bbsd.load(path, overrides=overrides).meaning)
+        problem = compile_meaning(bbsd.load(path, set=overrides).meaning)
     except SpecError:
         return []
     if problem.meaning.episode.outside:

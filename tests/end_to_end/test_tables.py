@@ -6,7 +6,7 @@ import pytest
 
 import bbsd as api
 from bbsd.api.evaluating import NoSingleEpisodes
-from bbsd.api.opening import opened_environment
+from bbsd.api.given.environments import opened_environment
 from bbsd.evaluation import NotEnumerable
 from bbsd.runs.storage.folder import FolderError
 from experiments.tables import Row, line
@@ -102,16 +102,14 @@ def test_what_exact_cannot_be_is_said(walker):
 @pytest.mark.slow
 def test_a_design_is_by_the_table_and_says_so_in_its_folder(tmp_path):
     spec = written(tmp_path, LAKE)
-    found = api.design(spec, overrides=["design.budget=5000"], out=tmp_path / "run", **ALLOWED)
+    found = api.design(spec, set=["design.budget=5000"], out=tmp_path / "run", **ALLOWED)
     identity = json.loads((found.folder / "run.json").read_text(encoding="utf-8"))
 
     assert len(identity["environment"]["table"]) == 32
     assert identity["reproducible"] is True
     assert api.evaluate(found.architecture, exact=True, **ALLOWED).mean > 0.1
     with pytest.raises(FolderError, match="the environment's table"):
-        api.design(
-            spec, overrides=["design.budget=5000"], out=found.folder, resume=True, by_table=False, **ALLOWED
-        )
+        api.design(spec, set=["design.budget=5000"], out=found.folder, resume=True, by_table=False, **ALLOWED)
 
 
 def test_an_experiment_tells_how_far_designs_are_below_what_is_possible():

@@ -117,9 +117,7 @@ def test_a_robot_with_the_key_opens_the_door_and_goes_to_the_goal():
 
 def episode(task, *starts):
     """An episode of the design made by hand."""
-    return bbsd.trace(
-        TASKS / f"{task}_hand.yaml", overrides=[f"environment.state.{start}" for start in starts]
-    )
+    return bbsd.trace(TASKS / f"{task}_hand.yaml", set=[f"environment.state.{start}" for start in starts])
 
 
 def cart_pole(x, speed, angle, turning, push):

@@ -33,7 +33,7 @@ SHORTER = {"tasks/aggregation": ["environment.steps=40"]}
 
 
 def uncompiled(name, overrides=()):
-    loaded = bbsd.load(SPECS / f"{name}.yaml", overrides=overrides)
+    loaded = bbsd.load(SPECS / f"{name}.yaml", set=overrides)
     return compile_meaning(loaded.meaning, lanes=12, compiled=False)
 
 
@@ -72,7 +72,7 @@ def test_the_hand_made_design_earns_more_than_random_agents(world):
 
 @pytest.mark.parametrize("world", WORLDS)
 def test_a_world_is_drawn_from_above_in_the_colors_of_who_controls(world, tmp_path):
-    loaded = bbsd.load(SPECS / f"{world}_hand.yaml", overrides=["environment.steps=15"])
+    loaded = bbsd.load(SPECS / f"{world}_hand.yaml", set=["environment.steps=15"])
     lived = bbsd.trace(loaded)
     draw_episode(lived, loaded.spec, tmp_path / "world.svg")
     text = (tmp_path / "world.svg").read_text()
@@ -98,7 +98,7 @@ def test_an_arm_of_the_paper_is_designed(path):
         "learning.episodes=3",
         "learning.last=3",
     ]
-    loaded = bbsd.load(path, overrides=[*(f"design.{each}" for each in small), "environment.steps=5"])
+    loaded = bbsd.load(path, set=[*(f"design.{each}" for each in small), "environment.steps=5"])
     problem = compile_meaning(loaded.meaning, lanes=4, compiled=False)
     settings = settings_of(loaded.meaning)
     lived = generations(start(problem, settings, 0, 0), problem, settings, 0)
@@ -142,7 +142,7 @@ def idle(problem):
 
 def test_sonars_fail_from_generation_50_on():
     """Half of the episodes have a sonar that reads 0 but for its noise, in all steps."""
-    loaded = bbsd.load(SPECS / "mobile_robot_failing_sonar.yaml", overrides=["environment.steps=20"])
+    loaded = bbsd.load(SPECS / "mobile_robot_failing_sonar.yaml", set=["environment.steps=20"])
     problem = compile_meaning(loaded.meaning, compiled=False)
     failed = {}
     for generation in (49, 50):

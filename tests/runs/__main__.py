@@ -38,7 +38,7 @@ def make() -> None:
     expected = {}
     with TemporaryDirectory() as elsewhere:
         for name, settings in SETTINGS.items():
-            whole = bbsd.design(SPEC, seed=SEED, overrides=settings, out=Path(elsewhere) / name)
+            whole = bbsd.design(SPEC, seed=SEED, set=settings, out=Path(elsewhere) / name)
             expected[name] = {
                 "seed": SEED,
                 "set": settings,
@@ -48,9 +48,7 @@ def make() -> None:
             }
         shutil.copytree(Path(elsewhere) / FINISHED, place / FINISHED)
     try:
-        bbsd.design(
-            SPEC, seed=SEED, overrides=SETTINGS[STOPPED], out=place / STOPPED, progress=_stop_in_the_middle
-        )
+        bbsd.design(SPEC, seed=SEED, set=SETTINGS[STOPPED], out=place / STOPPED, progress=_stop_in_the_middle)
     except Interrupted:
         (place / "expected.json").write_text(json.dumps(expected, indent=2) + "\n", encoding="utf-8")
 

@@ -60,7 +60,7 @@ def compare(
             seed=seed,
             lanes=lanes,
             jobs=jobs,
-            overrides=overrides or (),
+            set=overrides or (),
         )
         for other in others
     ]

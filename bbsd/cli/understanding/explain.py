@@ -59,9 +59,7 @@ def explain(
     """
     from bbsd.explanation import dot_text, explanation_text, mermaid_text, table_text, tree_text
 
-    explanation = bbsd.explain(
-        spec, seed=seed, episodes=episodes or 0, worth=worth, overrides=overrides or ()
-    )
+    explanation = bbsd.explain(spec, seed=seed, episodes=episodes or 0, worth=worth, set=overrides or ())
     if explanation.watched is None and (spec / VISITS).is_file():
         say(f"the visits that {escape(str(spec))} has kept are of another design; --episodes N counts anew")
     if as_json or form is ExplanationFormat.JSON:

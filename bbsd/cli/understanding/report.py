@@ -54,7 +54,7 @@ def report(
             seed=seed,
             episodes=episodes,
             faults=faults or (),
-            overrides=overrides or (),
+            set=overrides or (),
             progress=listener,
         )
     from bbsd.report.page import page_text

@@ -81,7 +81,7 @@ def why(
         unwanted=unwanted or (),
         wanted=wanted or (),
         seed=seed,
-        overrides=overrides or (),
+        set=overrides or (),
     )
     show(json_text(answer.to_plain()) if as_json or form is ResultFormat.JSON else answer_text(answer))
 

@@ -44,7 +44,7 @@ def worth(
     or a rule is dropped, a behavior is replaced at random, or layers are exchanged; and points out what is selfish,
     harmful or useless.
     """
-    found = bbsd.worth(spec, episodes=episodes, seed=seed, lanes=lanes, jobs=jobs, overrides=overrides or ())
+    found = bbsd.worth(spec, episodes=episodes, seed=seed, lanes=lanes, jobs=jobs, set=overrides or ())
     from bbsd.report.worth import order_dot, order_mermaid, worth_plain, worth_table
 
     match WorthFormat.JSON if as_json else form:

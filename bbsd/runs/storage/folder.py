@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
     from bbsd.runs.storage.identity import Identity
 
+RUNS = Path("runs")
+"""Where designs are written that name no folder."""
 FORMAT = 3
 """The format of `run.json`."""
 DIGEST = "architecture_sha256"
@@ -211,11 +213,11 @@ def _agrees(content: Mapping[str, Any], expected: Mapping[str, Any]) -> bool:
     return all(content.get(key) == value for key, value in expected.items())
 
 
-def new_folder(wanted: Path | None, name: str, seed: int) -> Folder:
-    """Make a new folder: the one wanted, which must be empty or not there, or the first free one under `runs/`."""
+def new_folder(wanted: Path | None, name: str, seed: int, below: Path = RUNS) -> Folder:
+    """Make a new folder: the one wanted, which must be empty or not there, or the first free one below another."""
     try:
         if wanted is None:
-            return Folder(next(path for path in _defaults(name, seed) if _make(path)))
+            return Folder(next(path for path in _defaults(below, name, seed) if _make(path)))
         if not _make(wanted) and not is_unused(wanted):
             raise FolderError(_not_empty(wanted))
     except OSError as error:
@@ -237,12 +239,12 @@ def _not_empty(path: Path) -> str:
     return f"{path} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
 
 
-def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
-    """Return the folder of a design: the one wanted, or the newest one under `runs/`.
+def folder_to_resume(wanted: Path | None, name: str, who: Identity, below: Path = RUNS) -> Folder:
+    """Return the folder of a design: the one wanted, or the newest one below another.
 
     Raises FolderError if no folder holds this design, or only by another version or revision of bbsd.
     """
-    folders = [Folder(wanted)] if wanted is not None else [*_default_folders(name, who.seed)]
+    folders = [Folder(wanted)] if wanted is not None else [*_default_folders(below, name, who.seed)]
     for folder in reversed(folders):
         if folder.holds(who):
             return folder
@@ -252,7 +254,7 @@ def folder_to_resume(wanted: Path | None, name: str, who: Identity) -> Folder:
     if wanted is not None:
         raise FolderError(_other_run(folders[0], who))
     raise FolderError(
-        "there is no run of this spec with this seed under runs/ that could be resumed; name its folder with --out"
+        f"there is no run of this spec with this seed under {below}/ that could be resumed; name its folder with --out"
     )
 
 
@@ -283,17 +285,17 @@ def _other_version(folder: Folder, who: Identity) -> str:
     )
 
 
-def _default_folders(name: str, seed: int) -> Iterator[Folder]:
-    """Yield the folders under `runs/` that are there, oldest first."""
-    for path in _defaults(name, seed):
+def _default_folders(below: Path, name: str, seed: int) -> Iterator[Folder]:
+    """Yield the folders below another that are there, oldest first."""
+    for path in _defaults(below, name, seed):
         if not path.exists():
             return
         yield Folder(path)
 
 
-def _defaults(name: str, seed: int) -> Iterator[Path]:
-    """Yield the folders under `runs/` that a design may use, one after another without end."""
-    base = Path("runs") / f"{name}-seed{seed}"
+def _defaults(below: Path, name: str, seed: int) -> Iterator[Path]:
+    """Yield the folders below another that a design may use, one after another without end."""
+    base = below / f"{name}-seed{seed}"
     yield base
     number = 2
     while True:

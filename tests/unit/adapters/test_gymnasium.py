@@ -66,7 +66,7 @@ def test_whole_episodes_follow_from_the_seed(spec, request):
 
 
 def evaluated(spec, seed):
-    evaluation = bbsd.evaluate(spec, episodes=EPISODES, seed=seed, overrides=SHORT, keep_each=True)
+    evaluation = bbsd.evaluate(spec, episodes=EPISODES, seed=seed, set=SHORT, keep_each=True)
     return evaluation.each.returns
 
 
@@ -85,8 +85,8 @@ def returns_of(world, choose):
 @pytest.mark.slow
 @pytest.mark.parametrize("spec", [LIFTING, CARTPOLE], ids=["lifting", "cartpole"])
 def test_a_controller_earns_what_its_design_is_evaluated_at(spec):
-    loaded = bbsd.load(spec, seed=5, overrides=SHORT)
-    world = env(spec, observe="cells", seed=5, overrides=SHORT)
+    loaded = bbsd.load(spec, seed=5, set=SHORT)
+    world = env(spec, observe="cells", seed=5, set=SHORT)
     exchange, controller = world.exchange, controller_of(loaded.meaning, architecture_of(loaded.meaning))
     assert exchange.names == tuple(dimension.name for dimension in controller.dimensions)
 
@@ -100,8 +100,8 @@ def test_a_controller_earns_what_its_design_is_evaluated_at(spec):
 @pytest.mark.slow
 @pytest.mark.parametrize("spec", [LIFTING, CARTPOLE], ids=["lifting", "cartpole"])
 def test_agents_earn_what_their_design_is_evaluated_at(spec):
-    world = env(spec, seed=3, overrides=SHORT)
-    agents, exchange = bbsd.Agent.team(spec, seed=3, overrides=SHORT), world.exchange
+    world = env(spec, seed=3, set=SHORT)
+    agents, exchange = bbsd.Agent.team(spec, seed=3, set=SHORT), world.exchange
 
     def choose(observation):
         acts = []
@@ -135,7 +135,7 @@ def test_rewards_of_one_robot_add_up_to_its_return():
 
 
 def test_an_episode_without_an_end_is_cut_after_its_steps():
-    world = env(LIFTING, overrides=["environment.steps=3"])
+    world = env(LIFTING, set=["environment.steps=3"])
     world.reset(seed=0)
     ends = [world.step(np.zeros(3, np.int64))[2:4] for _ in range(3)]
     assert ends == [(False, False), (False, False), (False, True)]

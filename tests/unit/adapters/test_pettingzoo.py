@@ -23,7 +23,7 @@ def spec(request, tmp_path):
 
 
 def parallel(spec, **settings):
-    return bbsd.env(spec, api="pettingzoo", compiled=False, overrides=SHORT, **settings)
+    return bbsd.env(spec, api="pettingzoo", compiled=False, set=SHORT, **settings)
 
 
 @pytest.mark.parametrize("observe", ["sensors", "cells"])
@@ -58,7 +58,7 @@ def test_whole_episodes_follow_from_the_seed(spec):
 @pytest.mark.slow
 def test_agents_earn_what_their_design_is_evaluated_at():
     world = parallel(LIFTING, seed=1)
-    agents = dict(zip(world.possible_agents, bbsd.Agent.team(LIFTING, seed=1, overrides=SHORT), strict=True))
+    agents = dict(zip(world.possible_agents, bbsd.Agent.team(LIFTING, seed=1, set=SHORT), strict=True))
     exchange, returns, sums = world.exchange, [], []
     for episode in range(3):
         observed, _ = world.reset(seed=episode)
@@ -75,7 +75,7 @@ def test_agents_earn_what_their_design_is_evaluated_at():
             total += first + second + third
         returns.append(infos["robot_0"]["return"])
         sums.append(total / 3)
-    evaluation = bbsd.evaluate(LIFTING, episodes=3, seed=1, overrides=SHORT, keep_each=True)
+    evaluation = bbsd.evaluate(LIFTING, episodes=3, seed=1, set=SHORT, keep_each=True)
     assert returns == sums == evaluation.each.returns.tolist()
 
 

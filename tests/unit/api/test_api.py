@@ -97,7 +97,7 @@ def test_a_design_that_could_not_be_written_is_refused_before_any_work(spec, tmp
     ],
 )
 def test_what_is_set_to_nothing_is_not_in_the_design(overrides, kept, tmp_path):
-    found = bbsd.api.design(SPEC, out=tmp_path / "run", overrides=overrides)
+    found = bbsd.api.design(SPEC, out=tmp_path / "run", set=overrides)
     assert ("view:" in found.architecture.read_text()) is kept
 
 
@@ -141,7 +141,7 @@ def test_a_stopped_design_goes_on_to_the_same_bytes(designed, tmp_path, at):
 def test_a_design_is_resumed_only_where_it_is_the_same(designed):
     found, _ = designed
     before = files(found.folder)
-    for changed in ({"seed": 3}, {"runs": 1}, {"overrides": ["environment.steps=3"]}):
+    for changed in ({"seed": 3}, {"runs": 1}, {"set": ["environment.steps=3"]}):
         with pytest.raises(FolderError, match="holds no run of this spec"):
             bbsd.api.design(SPEC, **{"seed": SEED, "runs": 2, **changed}, out=found.folder, resume=True)
     with pytest.raises(FolderError, match="nothing is overwritten"):
@@ -229,7 +229,7 @@ def test_a_trace_can_be_of_an_episode_chosen_by_its_return(designed, rank):
 
 
 def test_no_episode_is_before_the_first(designed):
-    with pytest.raises(UsageError, match="no episode -1"):
+    with pytest.raises(UsageError, match="episode is a whole number of 0 or more, not -1"):
         bbsd.api.trace(designed[0].architecture, episode=-1)
 
 
@@ -275,8 +275,8 @@ def test_mistakes_are_found_without_an_error(spec):
 
 def test_overrides_change_what_is_evaluated(spec):
     path = spec(EXACT)
-    assert bbsd.api.evaluate(path, exact=True, overrides=["environment.state.x=2"]).mean == 2
-    assert bbsd.api.load(path, overrides=["environment.steps=7"]).spec.environment.steps == 7
+    assert bbsd.api.evaluate(path, exact=True, set=["environment.state.x=2"]).mean == 2
+    assert bbsd.api.load(path, set=["environment.steps=7"]).spec.environment.steps == 7
 
 
 def test_a_loaded_spec_is_taken_as_it_is(spec):
@@ -286,14 +286,14 @@ def test_a_loaded_spec_is_taken_as_it_is(spec):
 
 
 def test_overrides_of_a_loaded_spec_are_used_and_recorded(tmp_path):
-    loaded = bbsd.api.load(SPEC, overrides=["environment.steps=4"])
-    found = bbsd.api.design(loaded, seed=3, out=tmp_path / "run", overrides=["environment.state.heating=1"])
+    loaded = bbsd.api.load(SPEC, set=["environment.steps=4"])
+    found = bbsd.api.design(loaded, seed=3, out=tmp_path / "run", set=["environment.state.heating=1"])
     note = json.loads((found.folder / "run.json").read_text())
     assert (note["seed"], note["set"]) == (3, ["environment.steps=4", "environment.state.heating=1"])
     again = bbsd.api.load(found.architecture)
     assert (again.spec.environment.steps, again.data["environment"]["state"]["heating"]) == (4, 1)
     text = bbsd.api.design(
-        SPEC, seed=3, out=tmp_path / "text", overrides=["environment.steps=4", "environment.state.heating=1"]
+        SPEC, seed=3, out=tmp_path / "text", set=["environment.steps=4", "environment.state.heating=1"]
     )
     assert files(text.folder)[:2] == files(found.folder)[:2]
 

@@ -82,5 +82,5 @@ def test_a_complete_spec_is_compared_with_it(spec):
 
 def test_overrides_may_name_another_one(spec):
     path = spec(f"{{python: '{HERE}:Line', robots: 2}}")
-    found = bbsd.spaces(path, overrides=[f"environment.python={HERE}:Duet"], **ACCESS)
+    found = bbsd.spaces(path, set=[f"environment.python={HERE}:Duet"], **ACCESS)
     assert found.target == f"{HERE}:Duet"

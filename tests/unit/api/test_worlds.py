@@ -6,7 +6,8 @@ import pytest
 
 import bbsd
 from bbsd.adapters.exchange import NotOurWorld
-from bbsd.api.worlds import LibraryMissing, NoSuchWorld
+from bbsd.api import BadArgument
+from bbsd.api.worlds import LibraryMissing
 from tests.unit.architecture.designs import SPECS
 
 CARTPOLE = SPECS / "tasks" / "cartpole.yaml"
@@ -21,7 +22,7 @@ def test_it_is_one_of_three_kinds():
 
 
 def test_holes_do_not_matter_but_overrides_do():
-    world = bbsd.env(CARTPOLE, compiled=False, overrides=["environment.steps=2"])
+    world = bbsd.env(CARTPOLE, compiled=False, set=["environment.steps=2"])
     world.reset(seed=0)
     assert not world.step(0)[3]
     assert world.step(0)[3]
@@ -30,13 +31,14 @@ def test_holes_do_not_matter_but_overrides_do():
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
-        ({"api": "gym"}, "no 'gym' here, but gymnasium, vector, pettingzoo"),
-        ({"observe": "state"}, "no 'state' here, but sensors, cells"),
-        ({"api": "vector", "lanes": 0}, "one lane or more, not 0"),
+        ({"api": "gym"}, "api is one of 'gymnasium', 'vector', 'pettingzoo', not 'gym'"),
+        ({"observe": "state"}, "observe is one of 'sensors', 'cells', not 'state'"),
+        ({"api": "vector", "lanes": 0}, "lanes is a whole number of 1 or more, not 0"),
+        ({"lanes": 5}, 'lanes has no effect without api="vector"'),
     ],
 )
 def test_what_there_is_not_is_told(settings, words):
-    with pytest.raises(NoSuchWorld, match=words):
+    with pytest.raises(BadArgument, match=words):
         bbsd.env(CARTPOLE, **settings)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.cli.design import _resume_command
+from bbsd.cli.continuing import resume_command
 
 
 @pytest.mark.parametrize(
@@ -19,4 +19,4 @@ from bbsd.cli.design import _resume_command
 )
 def test_a_stopped_command_is_gone_on_with_in_its_folder(monkeypatch, given, command):
     monkeypatch.setattr(sys, "argv", ["bbsd", *given.split()])
-    assert _resume_command(Path("my runs/a")) == command
+    assert resume_command(Path("my runs/a")) == command

@@ -92,7 +92,7 @@ def test_phases_give_the_same_bits_as_a_whole_rollout(text, live):
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_shipped_worlds_in_phases_give_the_same_bits(path):
-    whole = compile_meaning(load(path, overrides=SHORT).meaning, lanes=4, compiled=False)
+    whole = compile_meaning(load(path, set=SHORT).meaning, lanes=4, compiled=False)
     for live in (outcomes, practiced):
         assert_same(live(whole), live(in_phases(whole)))
 

@@ -42,7 +42,7 @@ def alone(tmp_path_factory):
 
 
 def designed(folder, **options):
-    design(SPEC, runs=3, out=folder, overrides=SMALL, **options)
+    design(SPEC, runs=3, out=folder, set=SMALL, **options)
     return {
         path.relative_to(folder): path.read_bytes()
         for path in folder.rglob("*")

@@ -31,7 +31,7 @@ def test_episodes_are_those_of_all_generations_of_all_runs(price):
 
 def test_sharing_by_differences_runs_the_last_episodes_again_for_each_behavior_that_evolves(price):
     design = api.load(SPEC).spec.design
-    more = api.price(SPEC, runs=2, overrides=["design.sharing=difference"])
+    more = api.price(SPEC, runs=2, set=["design.sharing=difference"])
     evolving = sum(table.open_cells > 0 for table in price.tables)
     assert evolving > 0
     agents = 2 * design.coevolution.generations * design.coevolution.agents

@@ -59,7 +59,7 @@ def plain(problem, agents):
 
 def shortened(path):
     steps = min(bbsd.load(path).spec.environment.steps, 12)
-    return compile_meaning(bbsd.load(path, overrides=[f"environment.steps={steps}"]).meaning, compiled=False)
+    return compile_meaning(bbsd.load(path, set=[f"environment.steps={steps}"]).meaning, compiled=False)
 
 
 PROBLEMS = {

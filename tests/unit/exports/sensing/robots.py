@@ -77,6 +77,6 @@ def robots(count, seed=0):
 
 def shipped(name, *overrides):
     """A shipped design as what is exported; a spec with holes gets tables that are drawn."""
-    meaning = bbsd.load(SPECS / f"{name}.yaml", overrides=overrides).meaning
+    meaning = bbsd.load(SPECS / f"{name}.yaml", set=overrides).meaning
     design = architecture_of(meaning) if name in SHIPPED else random_architecture(meaning, 1)
     return exported_design(meaning, design)

@@ -1,55 +1,19 @@
-"""Design a spec, or price what that costs."""
+"""Design a spec."""
 
 from __future__ import annotations
 
 import time
-from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd.architecture import designed_text, require_writable, tidy_tables
-from bbsd.compiler.problem import DEFAULT_LANES
-from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
-from bbsd.evaluation.visits import visits_after_design
-from bbsd.language.loading import loaded_again
-from bbsd.runs.answers import complete_runs
-from bbsd.runs.command import Command
-from bbsd.runs.interim import best_so_far
-from bbsd.runs.joint_policy import joint_policy_returns
-from bbsd.runs.origin import origin_of
-from bbsd.runs.pace import budget_of
-from bbsd.runs.price import Price
-from bbsd.runs.price import price as price_of
-from bbsd.runs.rival_command import paper_episodes
-from bbsd.runs.rivals import each_run, rival, spent
-from bbsd.runs.searching import ANSWER
-from bbsd.runs.signals import interrupts_request_stop
-from bbsd.runs.storage.folder import DIGEST, Folder, digest_of, folder_to_resume, new_folder
-from bbsd.runs.storage.identity import Identity, identity
-from bbsd.runs.storage.lock import only_writer
-from bbsd.runs.storage.unused import remove_parts
-from bbsd.runs.storage.visits import write_visits
-from bbsd.runs.visits import unvisited
-from bbsd.solver.budget import automatic_budget
-from bbsd.solver.judgement import Selection, judge
-from bbsd.solver.paper.settings import settings_of
-from bbsd.stopping import stop_request_of_context
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from bbsd.compiler import Problem
-    from bbsd.engines.engine import Engine
-    from bbsd.environments.importing.modules import Announce
-    from bbsd.environments.opening import Opened
-    from bbsd.language.loading import Loaded
-    from bbsd.solver.paper.settings import Settings
-from bbsd.api.compiling import located_reward_errors
-from bbsd.api.opening import opened_environment, problem_of
+from bbsd.api.given.arguments import Assignments, checked, optional, path, require_none, whole
+from bbsd.api.given.environments import opened_environment, problem_of
+from bbsd.api.making.interrupting import interruptible
+from bbsd.api.making.place import Wanted, former_of, place_of, require_former
+from bbsd.api.making.rivals import known_rivals
 from bbsd.api.results import (
     AnyProgress,
-    BestSoFar,
     Designed,
     Interrupted,
     NoBudget,
@@ -57,19 +21,56 @@ from bbsd.api.results import (
     Progress,
     SearchProgress,
 )
-from bbsd.api.specs import AnySpec, load
+from bbsd.api.specs import AnySpec, loaded_from
+from bbsd.architecture import designed_text, require_writable, tidy_tables
+from bbsd.compiler.problem import DEFAULT_LANES
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
+from bbsd.evaluation.visits import visits_after_design
+from bbsd.language.design import LEAST_BUDGET
+from bbsd.language.loading import loaded_again
+from bbsd.runs.answers import complete_runs
+from bbsd.runs.command import Command
+from bbsd.runs.joint_policy import joint_policy_returns
+from bbsd.runs.origin import origin_of
+from bbsd.runs.pace import budget_of
+from bbsd.runs.rival_command import paper_episodes
+from bbsd.runs.rivals import each_run, rival, spent
+from bbsd.runs.searching import ANSWER
+from bbsd.runs.storage.folder import DIGEST, digest_of
+from bbsd.runs.storage.identity import identity
+from bbsd.runs.storage.lock import only_writer
+from bbsd.runs.storage.unused import remove_parts
+from bbsd.runs.storage.visits import write_visits
+from bbsd.runs.visits import unvisited
+from bbsd.solver.budget import automatic_budget
+from bbsd.solver.judgement import judge
+from bbsd.solver.paper.settings import settings_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from bbsd.compiler import Problem
+    from bbsd.engines.engine import Engine
+    from bbsd.environments.importing.modules import Announce
+    from bbsd.environments.opening import Opened
+    from bbsd.language.loading import Loaded
+    from bbsd.runs.storage.folder import Folder
+    from bbsd.solver.judgement import Selection
+    from bbsd.solver.paper.settings import Settings
 
 
+@checked(more=optional(whole(LEAST_BUDGET)), below=optional(path))
 def design(
     spec: AnySpec,
     *,
     seed: int = 0,
     runs: int = 1,
     out: str | Path | None = None,
+    below: str | Path | None = None,
     resume: bool = False,
     lanes: int = DEFAULT_LANES,
     jobs: int = 1,
-    overrides: Sequence[str] = (),
+    set: Assignments = (),
     progress: Callable[[AnyProgress], None] | None = None,
     overdue: Callable[[Interrupted], object] | None = None,
     engine: Engine | None = None,
@@ -84,29 +85,31 @@ def design(
     by_table: bool = True,
     note: Callable[[str], object] | None = None,
 ) -> Designed:
-    """Fill the holes of a spec, and write the design and its metrics into a folder.
+    """Fill the holes of a spec; where a folder is named, write the design and its metrics into it.
 
-    The same spec, overrides, seed and number of runs give the same bytes of `architecture.yaml` and `metrics.jsonl`,
+    The same spec, `set`, seed and number of runs give the same bytes of `architecture.yaml` and `metrics.jsonl`,
     however often the design was stopped and resumed.
 
     Args:
-        spec: A spec with holes.
+        spec: A spec with holes; with `resume` or `more` also the folder of a run, or what `design` returned, which name
+            the spec, the seed, the runs and what is set.
         seed: Seed of all random numbers, of draws in constants too, also where the spec is loaded already.
         runs: Number of independent runs; the best of their designs is kept.
-        out: The folder to write, new or empty; by default the first free one under `runs/`.
-        resume: Continue the same design in `out`, by default in the newest folder under `runs/` that holds it.
+        out: The folder to write, new or empty. By default nothing is written, and the result has everything.
+        below: Instead of `out`, a folder in which a new one is made, named by the spec and the seed.
+        resume: Continue the same design in `out`, by default in the newest folder in `below` (`runs`) that holds it.
         lanes: Episodes that a kernel runs side by side; affects only the speed.
         jobs: Processes for several runs, and threads within a run if there are more jobs than runs; affects only
             the speed.
-        overrides: Values that replace those of the spec.
+        set: Values that replace those of the spec.
         progress: Called after each generation, or each time the best so far was measured.
         overdue: Called in another thread if the design does not stop soon after an interrupt. An interrupt takes
             effect after the episodes that are running. `overdue` may end the process, since all written files are
             complete.
         engine: Where runs are done that this process does not do itself; by default so many processes are started
             as are needed.
-        more: Episodes of a further budget for each run that `resume` continues; the same sequence of budgets gives
-            the same bytes.
+        more: Continue as by `resume`, with so many episodes of a further budget for each run; the same sequence of
+            budgets gives the same bytes.
         within: Seconds of each run, instead of a budget in episodes; the result cannot be reproduced.
         rivals: Names of methods on which the same budget is spent too; what they achieve is reported beside.
         allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
@@ -121,7 +124,8 @@ def design(
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
-        NothingToDesign: the spec has no holes.
+        NothingToDesign: the spec has no holes, or is the folder of a run that is finished.
+        BadArgument: an argument is none that can be honoured.
         NoBudget: `more` or `within` for the paper's loop.
         FolderInUse: another process writes in the folder.
         FolderError: the folder cannot be written, or not be resumed.
@@ -131,17 +135,35 @@ def design(
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     started = time.monotonic()
-    loaded = loaded_again(load(spec, seed=seed, overrides=overrides), seed=seed)
+    resume = resume or more is not None
+    former = former_of(spec, goes_on=resume)
+    if former is not None:
+        made = former.design()
+        given = {
+            "seed": (seed, 0),
+            "runs": (runs, 1),
+            "set": (set, ()),
+            "out": (out, None),
+            "below": (below, None),
+        }
+        require_former(
+            former, **{name: value for name, (value, default) in given.items() if value != default}
+        )
+        spec, seed, runs, set, out = made.spec, made.seed, made.runs, made.overrides, former.path
+    require_none(["below"] if None not in (below, out) else [], "beside out, the folder itself")
+    require_none(["more"] if None not in (more, within) else [], "beside within")
+    wanted = Wanted(None if out is None else Path(out), None if below is None else Path(below), resume)
+    loaded = loaded_again(loaded_from(spec, seed, set), seed=seed)
     opened = opened_environment(
         loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
     )
-    problem = _problem_with_holes(loaded, opened, lanes, jobs)
+    problem = problem_with_holes(loaded, opened, lanes, jobs)
     settings = settings_of(problem.meaning)
     if settings.method == "paper" and (more is not None or within is not None):
         raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
+    known_rivals(rivals, settings.method)
     run_identity = identity(loaded, seed, runs, None if opened is None else opened.plain())
-    folder = _run_folder(loaded, run_identity, Path(out) if out else None, resume=resume)
-    with only_writer(folder):
+    with place_of(wanted, loaded, run_identity) as folder, only_writer(folder):
         remove_parts(folder.path)
         if not resume:
             folder.begin(loaded.lineage.flat.source.text)
@@ -153,7 +175,7 @@ def design(
             problem, settings, seed, runs, folder, run_identity, budgets, within, origin_of(loaded, opened)
         )
         listener = progress and _metrics_listener(command, progress)
-        with _interruptible(command, loaded, overdue, keep_best=True):
+        with interruptible(command, loaded, overdue, keep_best=True, is_kept=wanted.is_kept):
             answers = complete_runs(command, jobs, listener, engine)
             judged = judge(answers, problem, settings, seed)
             missed = unvisited(command)
@@ -167,7 +189,7 @@ def design(
         result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
         folder.write_run_file(run_identity, loaded.overrides, budgets, result, fickle)
         elsewhere = None if engine is None or engine.shares_machine else engine
-        with _interruptible(command, loaded, overdue, keep_best=False):
+        with interruptible(command, loaded, overdue, keep_best=False, is_kept=wanted.is_kept):
             others = tuple(
                 rival(
                     command,
@@ -182,8 +204,11 @@ def design(
         # What follows reads the runs again, and mends them where it must: nobody else may write yet.
         seconds = time.monotonic() - started
         return Designed(
-            folder.architecture,
-            folder.path,
+            loaded.spec.name,
+            text,
+            folder.path if wanted.is_kept else None,
+            tuple(folder.lines()),
+            visits,
             settings.method,
             names,
             judged.evaluation,
@@ -242,100 +267,18 @@ def _budgets(
     return (*former, *(budget for budget in further if budget > 0))
 
 
-@contextmanager
-def _interruptible(
-    command: Command,
-    loaded: Loaded,
-    overdue: Callable[[Interrupted], object] | None,
-    *,
-    keep_best: bool,
-) -> Iterator[None]:
-    """Turn an interrupt inside into Interrupted, the best design so far being kept where there is no answer yet."""
-    interrupted = Interrupted(command.folder.path)
-    with located_reward_errors(loaded), interrupts_request_stop(overdue and (lambda: overdue(interrupted))):
-        try:
-            yield
-        except KeyboardInterrupt:
-            if keep_best:
-                with stop_request_of_context():
-                    interrupted.best = _keep_best(command, loaded)
-            raise interrupted from None
-
-
-def _keep_best(command: Command, loaded: Loaded) -> BestSoFar | None:
-    """Write the best design so far of a search that was stopped."""
-    best = best_so_far(command)
-    if best is None:
-        return None
-    text = designed_text(loaded, tidy_tables(command.problem.meaning, best.architecture))
-    return BestSoFar(command.folder.write_best(text), best.mean, best.episodes)
-
-
-def price(
-    spec: AnySpec,
-    *,
-    seed: int = 0,
-    runs: int = 1,
-    lanes: int = DEFAULT_LANES,
-    jobs: int = 1,
-    starting: float = 0.0,
-    overrides: Sequence[str] = (),
-    allow_import: Sequence[str] = (),
-    import_from: Sequence[str | Path] = (),
-    environment: Callable[..., Any] | None = None,
-    step_limit: float = DEFAULT_LIMIT,
-    announce: Announce | None = None,
-    by_table: bool = True,
-    note: Callable[[str], object] | None = None,
-) -> Price:
-    """Estimate the time and memory of a `design` from a sample of its episodes; write nothing.
-
-    Args:
-        spec: A spec with holes.
-        seed: Seed of the sample.
-        runs: Number of runs.
-        lanes: Episodes that a kernel runs side by side.
-        jobs: Processes and threads of the design.
-        starting: Seconds that the process needs before and after the design; they are added.
-        overrides: Values that replace those of the spec.
-        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
-            configuration file. A spec whose world is its own imports nothing.
-        import_from: Folders in which modules are looked for, after the installed environment.
-        environment: A class in hand that is the spec's environment; nothing is imported for it.
-        step_limit: Seconds that a step or a reset of the environment may take.
-        announce: Called with each module and its file before it is imported.
-        by_table: Step the environment by its table of transitions, if it has one (`P`, as Taxi), and real steps agree
-            with it: hundreds of times as fast. What is drawn is drawn from the keys of episodes then.
-        note: Called with a sentence on that, if it has one.
+def problem_with_holes(loaded: Loaded, opened: Opened | None, lanes: int, jobs: int = 1) -> Problem:
+    """Return the problem of a spec.
 
     Raises:
-        SpecError: with all mistakes of the spec, or if a reward is not finite.
-        NothingToDesign: the spec has no holes.
-        ImportNotAllowed: the spec's environment needs a module that was not allowed.
-        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
+        NothingToDesign: it has no holes.
+        SpecError: its design could not be written into its text.
     """
-    loaded = loaded_again(load(spec, seed=seed, overrides=overrides), seed=seed)
-    opened = opened_environment(
-        loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
-    )
-    problem = _problem_with_holes(loaded, opened, lanes)
-    with located_reward_errors(loaded):
-        return price_of(problem, settings_of(problem.meaning), seed, runs, jobs, starting)
-
-
-def _problem_with_holes(loaded: Loaded, opened: Opened | None, lanes: int, jobs: int = 1) -> Problem:
     problem = problem_of(loaded, opened, lanes=lanes, jobs=jobs)
     if not problem.has_holes:
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
     require_writable(loaded)
     return problem
-
-
-def _run_folder(loaded: Loaded, run_identity: Identity, out: Path | None, *, resume: bool) -> Folder:
-    name = Path(loaded.source.file).stem
-    if resume:
-        return folder_to_resume(out, name, run_identity)
-    return new_folder(out, name, run_identity.seed)
 
 
 def _metrics_listener(

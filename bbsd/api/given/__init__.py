@@ -1,0 +1,1 @@
+"""What the verbs are given: their arguments, specs in any form, the environments that these name."""
