@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from bbsd.api.given.arguments import require_none
 from bbsd.compiler import compile_meaning
 from bbsd.environments.importing.configuration import allowed_by_configuration, configuration_file
 from bbsd.environments.importing.consent import consent
@@ -46,6 +47,7 @@ def opened_environment(
         note: called with a sentence on that, if it has one.
     """
     if loaded.spec.environment.outside is None:
+        require_none([] if environment is None else ["environment"], "where the spec's world is its own")
         return None
     from bbsd.environments.for_spec import opened_for
 
