@@ -163,7 +163,7 @@ def prepare(folder: Path) -> Path:
     spec = folder / "guess.yaml"
     spec.write_text(SPEC, encoding="utf-8")
     for method, settings in METHODS.items():
-        bbsd.api.design(spec, seed=1, runs=2, out=folder / f"first-{method}", overrides=settings)
+        bbsd.api.design(spec, seed=1, runs=2, out=folder / f"first-{method}", set=settings)
     if (threads := _threads()) != 1:
         raise RuntimeError(f"{threads} threads are running; set OPENBLAS_NUM_THREADS=1")
     gc.collect()
