@@ -102,13 +102,15 @@ def trial(path: Path, watch: Watch) -> tuple[str, float]:
 def check(path: Path) -> None:
     """Do what `bbsd check` does, in every format."""
     try:
-        load(Source.read(path))
-    except SpecError as error:
-        for diagnosis in error.diagnoses:
-            render_text(diagnosis, error.line(diagnosis.place))
-        github_text(error.diagnoses)
-        render_json(error.diagnoses)
-        sarif_log(error.diagnoses)
+        loaded = load(Source.read(path))
+        error = loaded.lineage.error(loaded.warnings)
+    except SpecError as found:
+        error = found
+    for diagnosis in error.diagnoses:
+        render_text(diagnosis, error.line(diagnosis.place))
+    github_text(error.diagnoses)
+    render_json(error.diagnoses)
+    sarif_log(error.diagnoses)
 
 
 def check_seconds(path: Path, depth: int = 0) -> float:

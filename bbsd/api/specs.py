@@ -58,7 +58,7 @@ def require_own_world(loaded: Loaded) -> None:
 
 @checked()
 def check(spec: AnySpec) -> tuple[Diagnosis, ...]:
-    """Return all mistakes of a spec, none if it is correct.
+    """Return all mistakes of a spec, and after them all warnings; their `severity` tells which they are.
 
     A file that cannot be read is a mistake too.
 
@@ -66,6 +66,6 @@ def check(spec: AnySpec) -> tuple[Diagnosis, ...]:
         NoDesign: a folder that is no run, or a run without an answer.
     """
     try:
-        return check_source(source_of(spec))
+        return check_source(source_of(spec), warnings=True)
     except SpecError as error:
         return error.diagnoses

@@ -1,19 +1,20 @@
 """`bbsd check`."""
 
 import sys
-from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from bbsd.cli.options import spec_files
-from bbsd.cli.terminal.mistakes import MISTAKE, diagnoses_text
+from bbsd.cli.terminal.mistakes import MISTAKE
 from bbsd.cli.terminal.output import has_color, show, show_commands
-from bbsd.errors import KINDS, Diagnosis, SpecError, describe, did_you_mean, escape, render_json
-from bbsd.report.numbers import count
+from bbsd.errors import KINDS, SpecError, describe, did_you_mean
 from bbsd.report.plain import json_text
+
+if TYPE_CHECKING:
+    from bbsd.report.checked import Checked
 
 
 class MistakeFormat(StrEnum):
@@ -35,62 +36,63 @@ def check(
     form: Annotated[
         MistakeFormat, typer.Option("--format", help="Format of the output.")
     ] = MistakeFormat.TEXT,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="Exit with code 2 if there are warnings too.")
+    ] = False,
     code: Annotated[
         str | None,
         typer.Option(
-            "--describe", metavar="CODE", help="Describe a kind of mistake, such as BB006, and exit."
+            "--describe",
+            metavar="CODE",
+            help="Describe a kind of mistake or warning, such as BB006, and exit.",
         ),
     ] = None,
 ) -> None:
-    """Report all mistakes in specs, each at its line and column.
+    """Report all mistakes in specs, each at its line and column, and what they probably do not mean to say.
 
-    Exits with code 2 if there are any.
+    Exits with code 2 if there are mistakes; warnings alone change the code with --strict.
     """
     if code is not None:
         show(_description(code))
     elif specs:
-        _check(specs, form)
+        _check(specs, form, strict=strict)
     else:
         raise typer.BadParameter("give a SPEC, or --describe CODE")
 
 
-def _check(specs: list[Path], form: MistakeFormat) -> None:
-    results = [(spec, *_size_or_error(spec)) for spec in specs]
-    errors = [error for _, _, error in results if error]
-    if form is MistakeFormat.TEXT:
-        show("\n".join(_verdict(*result) for result in results))
-    else:
-        text = _machine_text([diagnosis for error in errors for diagnosis in error.diagnoses], form)
-        (show_commands if form is MistakeFormat.GITHUB else show)(text)
-    if errors:
+def _check(specs: list[Path], form: MistakeFormat, *, strict: bool) -> None:
+    from bbsd.report.checked import checked_plain, checked_text
+
+    checked = [_checked(spec) for spec in specs]
+    diagnoses = [diagnosis for each in checked for diagnosis in each.diagnoses]
+    match form:
+        case MistakeFormat.TEXT:
+            color = has_color(sys.stdout)
+            show("\n".join(checked_text(each, color=color, strict=strict) for each in checked))
+        case MistakeFormat.JSON:
+            show(json_text(checked_plain(checked)))
+        case MistakeFormat.GITHUB:
+            from bbsd.report.github import github_text
+
+            show_commands(github_text(diagnoses))
+        case MistakeFormat.SARIF:
+            from bbsd.report.sarif import sarif_log
+
+            show(json_text(sarif_log(diagnoses)))
+    if any(each.meaning is None for each in checked) or (strict and diagnoses):
         raise typer.Exit(MISTAKE)
 
 
-def _machine_text(diagnoses: Sequence[Diagnosis], form: MistakeFormat) -> str:
-    from bbsd.report.github import github_text
-    from bbsd.report.sarif import sarif_log
-
-    if form is MistakeFormat.GITHUB:
-        return github_text(diagnoses)
-    return json_text(sarif_log(diagnoses) if form is MistakeFormat.SARIF else render_json(diagnoses))
-
-
-def _size_or_error(spec: Path) -> tuple[str, SpecError | None]:
-    """Return the size of a spec in words and None, or "" and its mistakes."""
+def _checked(spec: Path) -> "Checked":
     from bbsd.api.specs import load
-    from bbsd.report.size import size_text
+    from bbsd.report.checked import Checked
 
     try:
-        return size_text(load(spec).meaning), None
+        loaded = load(spec)
     except SpecError as error:
-        return "", error
-
-
-def _verdict(spec: Path, size: str, error: SpecError | None) -> str:
-    if error is None:
-        return f"{escape(str(spec))}: ok ({size})"
-    diagnoses = diagnoses_text(error, color=has_color(sys.stdout))
-    return f"{diagnoses}\n\n{count(len(error.diagnoses), 'mistake')} in {escape(str(spec))}"
+        return Checked(str(spec), error.diagnoses, error.line, None)
+    line = loaded.lineage.error(()).line
+    return Checked(str(spec), loaded.warnings, line, loaded.meaning)
 
 
 def _description(code: str) -> str:

@@ -23,6 +23,7 @@ from bbsd.cli.options import (
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
 from bbsd.cli.terminal.interrupts import INTERRUPTED
 from bbsd.cli.terminal.output import error_console, leave_now, say, show, show_table
+from bbsd.cli.terminal.warnings import say_warnings
 from bbsd.cli.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 from bbsd.report.plain import design_plain, disagreement_plain, json_text
 
@@ -175,6 +176,7 @@ def design(
     # Mistakes are shown before anything heavy is imported, and workers import it at the same time as this process.
     loaded = load(spec, seed=seed, set=overrides)
     if not quiet:
+        say_warnings(loaded)
         _say_which_method(loaded)
     processes = 0 if resume or seeds else min(runs, jobs) - 1
     if dry_run:

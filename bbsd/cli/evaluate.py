@@ -30,6 +30,7 @@ from bbsd.cli.terminal.output import (
     show,
     show_table,
 )
+from bbsd.cli.terminal.warnings import say_warnings
 from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
 from bbsd.files import write_text_whole
@@ -165,6 +166,7 @@ def evaluate(
         raise typer.BadParameter(f"--episode {chosen} is among random episodes, so it excludes --exact")
     _require_outputs(returns, trace, plot)
     loaded = bbsd.load(spec, seed=seed, set=overrides or ())
+    say_warnings(loaded)
     if expect_at_least is not None:
         _require_expectations(loaded)
     require_names(values or (), names_to_show(loaded.spec))

@@ -1,7 +1,7 @@
 """All kinds of diagnoses by their stable codes; each layer lists the kinds that it finds in a module of its own.
 
-A new kind goes into its layer's module and takes the number after the highest one in use: BB070, ..., BB099, BB100, and
-so on. A number says nothing about the layer or the severity, and the number of a removed kind is not used again.
+A new kind goes into its layer's module and takes the number after the highest one in use: mistakes count on from BB001,
+warnings from BB201. A number says nothing about the layer, and the number of a removed kind is not used again.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from bbsd.errors.kind import Severity
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
+from bbsd.errors.warning_kinds import WARNING_KINDS
 from bbsd.errors.word_kinds import WORD_KINDS
 
 if TYPE_CHECKING:
@@ -30,7 +31,15 @@ def in_order_of_codes(kinds: Iterable[DiagnosisKind]) -> dict[str, DiagnosisKind
 
 
 KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
-    (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS, *ENVIRONMENT_KINDS, *WORD_KINDS)
+    (
+        *TEXT_KINDS,
+        *SPEC_KINDS,
+        *EXPRESSION_KINDS,
+        *OUTSIDE_KINDS,
+        *ENVIRONMENT_KINDS,
+        *WORD_KINDS,
+        *WARNING_KINDS,
+    )
 )
 
 

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from bbsd.errors.catalog import severity_of
+from bbsd.errors.kind import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-
-    from bbsd.errors.kind import Severity
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -47,7 +46,7 @@ class Lines(Protocol):
 
 
 class SpecError(Exception):
-    """A spec that cannot be used: all diagnoses, at least one of them a mistake, and the texts of its files.
+    """A spec that cannot be used: all diagnoses, mistakes first, at least one, and the texts of its files.
 
     `source` is the spec's own text, `others` are the texts of the files that it refers to, by file name.
     """
@@ -59,6 +58,11 @@ class SpecError(Exception):
         self.source = source
         self.others = others or {}
         super().__init__(self.diagnoses, source, self.others)
+
+    @property
+    def mistakes(self) -> tuple[Diagnosis, ...]:
+        """The diagnoses because of which the spec cannot be used, without warnings."""
+        return tuple(each for each in self.diagnoses if each.severity is Severity.MISTAKE)
 
     def line(self, place: Place) -> str:
         """Return the line that a place is on; '' if there is none."""

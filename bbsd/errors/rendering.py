@@ -82,23 +82,22 @@ def _colored(text: str, style: str, color: bool) -> str:
 
 
 def render_json(diagnoses: Iterable[Diagnosis]) -> list[dict[str, str | int]]:
-    """Return objects for JSON: file, line, column, end_column (exclusive), code, message, advice.
+    """Return objects for JSON: file, line, column, end_column (exclusive), code, severity, message, advice.
 
-    Only a warning also has a severity.
+    Their severity is error or warning.
     """
     return [_json_object(diagnosis) for diagnosis in diagnoses]
 
 
 def _json_object(diagnosis: Diagnosis) -> dict[str, str | int]:
     place = diagnosis.place
-    is_mistake = diagnosis.severity is Severity.MISTAKE
     return {
         "file": place.file,
         "line": place.line,
         "column": place.column,
         "end_column": place.column + place.length,
         "code": diagnosis.code,
+        "severity": diagnosis.severity.value,
         "message": diagnosis.message,
         "advice": diagnosis.advice,
-        **({} if is_mistake else {"severity": diagnosis.severity.value}),
     }

@@ -81,6 +81,8 @@ class Findings:
     """Unknown names that were reported: for the next robot no near name has to be searched."""
     entered: tuple[Path, Span] = ((), WHOLE)
     """The expression that was started last."""
+    warnings: dict[tuple[Path, Mistake], None] = field(default_factory=dict)
+    """What can be used, but probably does not say what was meant; as `mistakes`."""
     unseen: list[str] = field(default_factory=list)
     """Values of the world and of other robots that a behavior uses and cannot know."""
 
@@ -89,6 +91,11 @@ class Findings:
         self.mistakes[path, Mistake(code, message, span, advice)] = None
         if len(self.mistakes) >= MAX_MISTAKES:
             raise TooManyMistakesError
+
+    def warn(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
+        """Add a warning, unless there are `MAX_MISTAKES` already."""
+        if len(self.warnings) < MAX_MISTAKES:
+            self.warnings[path, Mistake(code, message, span, advice)] = None
 
     def is_first(self, use: tuple[Path, Span]) -> bool:
         """Return whether this is the first report of the use of an unknown name, and remember it."""

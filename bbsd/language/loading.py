@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
-from bbsd.errors import Diagnosis, SpecError
+from bbsd.errors import Diagnosis, Severity, SpecError
+from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
@@ -13,6 +15,7 @@ from bbsd.language.overrides import FILE as OVERRIDES
 from bbsd.language.overrides import overrides_source, read_overrides, with_overrides
 from bbsd.language.recovery import recover
 from bbsd.language.validation import existing, form_mistakes, validate
+from bbsd.language.warnings.finding import warnings_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -27,13 +30,17 @@ if TYPE_CHECKING:
     from bbsd.text import Data, Source
 
 MAX_DIAGNOSES = 50
+"""Mistakes and warnings that are told of one spec at most."""
 MAX_EXAMINED_TWICE = 300_000
 """Characters up to which mistakes of meaning are reported beside those of form, which takes twice the time."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Loaded:
-    """A spec without mistakes: its text, its files, its plain data after overrides, its model and its meaning."""
+    """A spec without mistakes: its text, its files, its plain data after overrides, its model and its meaning.
+
+    `noted` are warnings that were found on the way to its meaning.
+    """
 
     source: Source
     lineage: Lineage
@@ -41,6 +48,17 @@ class Loaded:
     data: Data
     spec: Spec
     meaning: Meaning
+    noted: tuple[LocatedMistake, ...] = ()
+
+    @cached_property
+    def warnings(self) -> tuple[Diagnosis, ...]:
+        """What can be used, but probably does not say what was meant, in the order of the text, 50 at most.
+
+        What stands in a file that the spec extends is told of that file alone, and nothing is told of overrides.
+        """
+        found = [*self.noted, *warnings_of(self.meaning)]
+        diagnoses = _diagnoses(found, self.lineage, self.data, read_overrides(self.overrides))
+        return tuple(_capped([each for each in diagnoses if each.place.file == self.source.file]))
 
     def __repr__(self) -> str:
         return f"<Loaded {self.source.file}: {self.spec.name}>"
@@ -52,8 +70,9 @@ def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loa
     `overrides` are arguments PATH=VALUE.
 
     Raises:
-        SpecError: with all mistakes of the file in its order, 50 at most; or with those of the overrides alone, where
-            there are any, and with a source that has an argument on each line.
+        SpecError: with all mistakes of the file in its order, and after them warnings about single expressions, 50 at
+            most; or with those of the overrides alone, where there are any, and with a source that has an argument on
+            each line.
     """
     return _loaded(read_lineage(source), seed, overrides)
 
@@ -69,34 +88,32 @@ def _loaded(files: Lineage, seed: int, overrides: Sequence[str]) -> Loaded:
     assignments = read_overrides(overrides)
     data = with_overrides(files.data, assignments, overrides)
     is_small = files.characters <= MAX_EXAMINED_TWICE
-    spec, meaning, mistakes = (
-        _examine(data, seed, is_small=is_small) if files.is_readable else (None, None, [])
-    )
+    spec, meaning, found = _examine(data, seed, is_small=is_small) if files.is_readable else (None, None, [])
     if spec is None or meaning is None or files.mistakes:
-        diagnoses = _diagnoses(mistakes, files, data, assignments)
+        diagnoses = _diagnoses(found, files, data, assignments)
         if in_overrides := [diagnosis for diagnosis in diagnoses if diagnosis.place.file == OVERRIDES]:
             raise SpecError(_capped(in_overrides), overrides_source(overrides))
         raise files.error(_capped(diagnoses))
-    return Loaded(files.source, files, tuple(overrides), data, meaning.spec, meaning)
+    return Loaded(files.source, files, tuple(overrides), data, meaning.spec, meaning, tuple(found))
 
 
-def check(source: Source, seed: int = 0) -> tuple[Diagnosis, ...]:
-    """Return the mistakes in a spec, in the order of its text, 50 at most."""
+def check(source: Source, seed: int = 0, *, warnings: bool = False) -> tuple[Diagnosis, ...]:
+    """Return the mistakes in a spec, in the order of its text, and after them the warnings if wanted; 50 at most."""
     try:
-        load(source, seed=seed)
+        loaded = load(source, seed=seed)
     except SpecError as error:
-        return error.diagnoses
-    return ()
+        return error.diagnoses if warnings else error.mistakes
+    return loaded.warnings if warnings else ()
 
 
 def _examine(
     data: Data, seed: int, *, is_small: bool
 ) -> tuple[Spec | None, Meaning | None, list[LocatedMistake]]:
-    """Return the model and the meaning of plain data, or their mistakes: those of form alone where they are large."""
+    """Return the model and the meaning of plain data, and what was found: where they are large, of form alone."""
     spec, errors = validate(data)
     if spec:
-        meaning, mistakes = elaborate(spec, seed)
-        return spec, meaning, list(mistakes)
+        meaning, found = elaborate(spec, seed)
+        return spec, meaning, list(found)
     further = _mistakes_of_meaning(data, errors, seed) if is_small else []
     return None, None, [*form_mistakes(errors, data), *further]
 
@@ -106,14 +123,21 @@ def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) 
     recovered = recover(data, errors)
     if recovered is None:
         return []
-    _, mistakes = elaborate(recovered.spec, seed, recovered.broken)
-    return [(path, mistake) for path, mistake in mistakes if mistake.code not in recovered.dependent]
+    _, found = elaborate(recovered.spec, seed, recovered.broken)
+    return [
+        (path, mistake)
+        for path, mistake in found
+        if mistake.code not in recovered.dependent and severity_of(mistake.code) is Severity.MISTAKE
+    ]
 
 
 def _diagnoses(
     mistakes: Iterable[LocatedMistake], files: Lineage, data: Data, overrides: Sequence[Override]
 ) -> list[Diagnosis]:
-    """Return all mistakes in the order of the text, without those where the reading of YAML already reported one."""
+    """Return all mistakes in the order of the text, then all warnings in that order.
+
+    Where the reading of YAML already reported a mistake, there is no other.
+    """
     unreadable = {_start(diagnosis.place) for diagnosis in files.mistakes}
     diagnoses = [*files.mistakes]
     for path, mistake in mistakes:
@@ -121,7 +145,7 @@ def _diagnoses(
         starts = {_start(place), _start(files.place(existing(path, data)))}
         if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _has_merged(files)):
             diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice))
-    return sorted(dict.fromkeys(diagnoses), key=lambda diagnosis: diagnosis.place)
+    return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
 
 
 def _start(place: Place) -> tuple[str, int, int]:
@@ -145,10 +169,12 @@ def _place(located: LocatedMistake, files: Lineage, data: Data, overrides: Seque
 
 
 def _capped(diagnoses: Sequence[Diagnosis]) -> Sequence[Diagnosis]:
-    """Return the first mistakes, the last of which says how many more there are."""
-    hidden = len(diagnoses) - MAX_DIAGNOSES
-    if hidden <= 0:
+    """Return the first mistakes and warnings, the last of which says how many more there are."""
+    hidden = diagnoses[MAX_DIAGNOSES:]
+    if not hidden:
         return diagnoses
     *first, last = diagnoses[:MAX_DIAGNOSES]
-    note = f"{hidden} more mistake{'s are' if hidden > 1 else ' is'} not shown"
+    words = {Severity.MISTAKE: "mistake", Severity.WARNING: "warning"}
+    kinds = [words[severity] for severity in words if any(each.severity is severity for each in hidden)]
+    note = f"{len(hidden)} more {'s and '.join(kinds)}{'s are' if len(hidden) > 1 else ' is'} not shown"
     return [*first, replace(last, advice=f"{last.advice}; {note}" if last.advice else note)]

@@ -1,4 +1,4 @@
-"""The parts of the language's reference that are generated from the code: keys, functions, words, mistakes.
+"""The parts of the language's reference that are generated from the code: keys, functions, words, mistakes, warnings.
 
 `docs/language.md` holds them between marks; a test compares them, and updates them with --update-golden.
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 
 from pydantic_core import PydanticUndefined
 
-from bbsd.errors import KINDS
+from bbsd.errors import KINDS, Severity
 from bbsd.expression.reserved import RESERVED, Use
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS
 from bbsd.language import design, models, outside, view
@@ -91,7 +91,17 @@ def reserved_text() -> str:
 
 def mistakes_text() -> str:
     """Return a table of the codes of mistakes."""
-    return _table(("code", "mistake"), ((code, _cell(kind.title)) for code, kind in KINDS.items()))
+    return _kinds_text("mistake", Severity.MISTAKE)
+
+
+def warnings_text() -> str:
+    """Return a table of the codes of warnings."""
+    return _kinds_text("warning", Severity.WARNING)
+
+
+def _kinds_text(word: str, severity: Severity) -> str:
+    kinds = (kind for kind in KINDS.values() if kind.severity is severity)
+    return _table(("code", word), ((kind.code, _cell(kind.title)) for kind in kinds))
 
 
 SECTIONS: Mapping[str, Callable[[], str]] = {
@@ -101,6 +111,7 @@ SECTIONS: Mapping[str, Callable[[], str]] = {
     "draws": draws_text,
     "reserved": reserved_text,
     "mistakes": mistakes_text,
+    "warnings": warnings_text,
 }
 
 

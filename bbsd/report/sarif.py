@@ -36,6 +36,7 @@ def _rule(kind: DiagnosisKind) -> dict[str, Any]:
         "id": kind.code,
         "shortDescription": {"text": kind.title},
         "fullDescription": {"text": kind.explanation},
+        "defaultConfiguration": {"level": kind.severity.value},
         "help": {"text": f"Such as:\n\n{kind.example}\n\nInstead:\n\n{kind.mend}"},
     }
 

@@ -33,5 +33,5 @@ def spaces_plain(spaces: Spaces) -> dict[str, Any]:
         "agents": list(spaces.agents),
         "step_limit": spaces.step_limit,
         "proposal": spaces.proposal,
-        "mistakes": [] if mistakes is None else render_json(mistakes.diagnoses),
+        "mistakes": [] if mistakes is None else render_json(mistakes.mistakes),
     }

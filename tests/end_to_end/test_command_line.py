@@ -106,9 +106,13 @@ def test_all_mistakes_of_all_files_are_shown_with_their_lines(mistaken):
 def test_mistakes_as_json(mistaken):
     code, out, err = bbsd("check", mistaken, "--format", "json")
     assert (code, err) == (2, "")
-    first = json.loads(out)[0]
-    assert keys(json.dumps(first)) == ["file", "line", "column", "end_column", "code", "message", "advice"]
-    assert bbsd("check", SPEC, "--format", "json") == (0, "[]\n", "")
+    found = json.loads(out)
+    keys_of_each = ["file", "line", "column", "end_column", "code", "severity", "message", "advice"]
+    assert [*found["diagnoses"][0]] == keys_of_each
+    (spec,) = found["specs"]
+    assert (spec["file"], spec["mistakes"], spec["warnings"]) == (str(mistaken), len(found["diagnoses"]), 0)
+    code, out, err = bbsd("check", SPEC, "--format", "json")
+    assert (code, json.loads(out)["diagnoses"], err) == (0, [], "")
 
 
 def test_other_commands_tell_mistakes_on_standard_error(mistaken):

@@ -23,10 +23,8 @@ def show_mistake(error: Exception) -> int:
 
 
 def diagnoses_text(error: SpecError, *, color: bool) -> str:
-    """Return diagnoses with their source lines, a blank line between them."""
-    return "\n\n".join(
-        render_text(diagnosis, error.line(diagnosis.place), color) for diagnosis in error.diagnoses
-    )
+    """Return mistakes with their source lines, a blank line between them; warnings are for `bbsd check`."""
+    return "\n\n".join(render_text(mistake, error.line(mistake.place), color) for mistake in error.mistakes)
 
 
 def _os_text(error: OSError) -> str:

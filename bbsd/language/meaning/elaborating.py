@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 def elaborate(
     spec: Spec, seed: int, broken: frozenset[str] = frozenset()
 ) -> tuple[Meaning | None, tuple[tuple[Path, Mistake], ...]]:
-    """Return a spec's meaning, or None where it has mistakes; and all mistakes with their paths.
+    """Return a spec's meaning, or None where it has mistakes; and all mistakes and then warnings with their paths.
 
     `broken` are names whose own mistakes were reported before; no mistake in their use is reported.
     """
@@ -45,8 +45,8 @@ def elaborate(
         findings.mistakes[
             path, Mistake("BB068", "the spec unrolls to too many values here", span, advice)
         ] = None
-    mistakes = tuple(findings.mistakes)
-    return None if mistakes or broken else meaning, mistakes
+    found = (*findings.mistakes, *findings.warnings)
+    return None if findings.mistakes or broken else meaning, found
 
 
 def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings) -> Meaning | None:

@@ -6,7 +6,8 @@ from pathlib import Path
 from tests.unit.cli.commands import run
 
 SPECS = Path(__file__).parents[2] / "specs"
-WRONG, RIGHT = SPECS / "invalid/BB020_top.yaml", SPECS / "valid/BB020_top.yaml"
+WRONG, RIGHT = SPECS / "invalid/BB020_top.yaml", SPECS / "mended/BB201_unused.yaml"
+ODD = SPECS / "warned/BB201_unused.yaml"
 
 
 def test_mistakes_are_printed_for_github(capsys):
@@ -25,3 +26,39 @@ def test_mistakes_of_all_files_are_in_one_log(capsys):
     assert run("check", WRONG, SPECS / "invalid/BB006_twice.yaml", "--format", "sarif") == 2
     (log,) = json.loads(capsys.readouterr().out)["runs"]
     assert [each["ruleId"] for each in log["results"]] == ["BB020", "BB006"]
+
+
+def test_warnings_are_shown_and_change_the_code_only_where_that_is_asked_for(capsys):
+    assert run("check", ODD) == 0
+    out = capsys.readouterr().out
+    assert (
+        f"{ODD}:6:3: warning[BB201]: the constant top_speed is used only by fast, which is of no use itself\n"
+        in out
+    )
+    assert f"\n{ODD}: ok, 5 warnings (1 behavior, " in out
+    assert run("check", ODD, RIGHT, "--strict") == 2
+    out = capsys.readouterr().out
+    assert f"\n{ODD}: 5 warnings (1 behavior, " in out
+    assert f"\n{RIGHT}: ok (1 behavior, " in out
+    assert run("check", RIGHT, "--strict") == 0
+
+
+def test_warnings_are_in_every_format(capsys):
+    assert run("check", ODD, "--format", "github") == 0
+    assert capsys.readouterr().out.startswith(f"::warning file={ODD},line=6,col=3,")
+    assert run("check", ODD, "--format", "sarif") == 0
+    (log,) = json.loads(capsys.readouterr().out)["runs"]
+    assert {(each["ruleId"], each["level"]) for each in log["results"]} == {("BB201", "warning")}
+    assert run("check", ODD, WRONG, "--format", "json", "--strict") == 2
+    found = json.loads(capsys.readouterr().out)
+    assert [each["severity"] for each in found["diagnoses"]] == ["warning"] * 5 + ["error"]
+    assert [(each["mistakes"], each["warnings"]) for each in found["specs"]] == [(0, 5), (1, 0)]
+
+
+def test_other_commands_say_in_a_line_that_there_are_warnings(capsys):
+    assert run("evaluate", ODD, "--fill", "random", "--agents", "2", "--episodes", "2", "--json") == 0
+    out, err = capsys.readouterr()
+    assert err.splitlines()[0] == f"5 warnings: bbsd check {ODD} shows them"
+    assert "warning" not in out
+    assert run("evaluate", RIGHT, "--fill", "random", "--agents", "2", "--episodes", "2", "--json") == 0
+    assert "warning" not in capsys.readouterr().err

@@ -9,13 +9,13 @@ from bbsd.errors.expression_kinds import EXPRESSION_KINDS
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
+from bbsd.errors.warning_kinds import WARNING_KINDS
+
+LISTED = (TEXT_KINDS, SPEC_KINDS, EXPRESSION_KINDS, OUTSIDE_KINDS, ENVIRONMENT_KINDS, WARNING_KINDS)
 
 
 def test_codes_are_unique_and_ordered_by_their_numbers() -> None:
-    listed = [
-        kind.code
-        for kind in (*TEXT_KINDS, *SPEC_KINDS, *EXPRESSION_KINDS, *OUTSIDE_KINDS, *ENVIRONMENT_KINDS)
-    ]
+    listed = [kind.code for kinds in LISTED for kind in kinds]
     assert len(KINDS) == len(listed)
     assert list(KINDS) == sorted(listed, key=lambda code: int(code.removeprefix("BB")))
     assert all(re.fullmatch(r"BB\d{3,}", code) for code in KINDS)
@@ -43,3 +43,8 @@ def test_a_code_is_described_in_either_case() -> None:
 def test_an_unknown_code_is_a_key_error() -> None:
     with pytest.raises(KeyError):
         describe("BB999")
+
+
+def test_warnings_are_numbered_from_201_and_nothing_else_is() -> None:
+    for kind in KINDS.values():
+        assert (int(kind.code.removeprefix("BB")) > 200) == (kind.severity is Severity.WARNING), kind.code

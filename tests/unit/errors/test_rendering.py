@@ -90,6 +90,7 @@ def test_json_has_the_place_code_message_and_advice() -> None:
         "column": 3,
         "end_column": 10,
         "code": "BB012",
+        "severity": "error",
         "message": 'unexpected key "modlues"; did you mean "modules"?',
         "advice": "advice, when there is one",
     }

@@ -8,6 +8,7 @@ import pytest
 import bbsd
 from bbsd.errors import KINDS, Diagnosis, SpecError
 from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
+from bbsd.errors.warning_kinds import WARNING_KINDS
 from bbsd.expression import graph
 from bbsd.language.loading import check, load
 from bbsd.text import Source, read
@@ -17,6 +18,8 @@ PACKAGE = Path(bbsd.__file__).parent
 CATALOG = PACKAGE / "errors"
 NO_EXAMPLES = {"BB001", "BB002", "BB003", "BB011", "BB012", "BB013", "BB029", "BB045", "BB048"}
 NO_EXAMPLES |= {kind.code for kind in ENVIRONMENT_KINDS}
+WARNINGS = sorted(kind.code for kind in WARNING_KINDS)
+MISTAKES = sorted(set(KINDS) - NO_EXAMPLES - {*WARNINGS})
 """What no few lines can show: missing files, files of no text, what is too large, what a run or an import finds."""
 
 
@@ -43,14 +46,27 @@ def test_the_codes_that_are_told_are_those_of_the_catalog() -> None:
     assert used == set(KINDS)
 
 
-@pytest.mark.parametrize("code", sorted(set(KINDS) - NO_EXAMPLES))
+@pytest.mark.parametrize("code", MISTAKES)
 def test_an_example_has_its_mistake_and_nothing_else(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(graph, "MAX_NODES", 20_000)
     assert {diagnosis.code for diagnosis in reported(KINDS[code].example)} == {code}
 
 
-@pytest.mark.parametrize("code", sorted(set(KINDS) - NO_EXAMPLES))
+@pytest.mark.parametrize("code", MISTAKES)
 def test_the_mended_example_has_it_no_longer(code: str) -> None:
     remaining = reported(KINDS[code].mend)
     assert code not in {diagnosis.code for diagnosis in remaining}
     assert remaining == () or code < "BB020"
+
+
+def warned(part: str) -> set[str]:
+    """Return the codes of the warnings that a part brings to the small spec."""
+    before = {diagnosis.message for diagnosis in check(source(), warnings=True)}
+    after = check(source(part), warnings=True)
+    return {diagnosis.code for diagnosis in after if diagnosis.message not in before}
+
+
+@pytest.mark.parametrize("code", WARNINGS)
+def test_an_example_has_its_warning_and_the_mended_one_has_none(code: str) -> None:
+    assert warned(KINDS[code].example) == {code}
+    assert warned(KINDS[code].mend) == set()

@@ -3,7 +3,7 @@ import pytest
 from bbsd.errors import KINDS
 from bbsd.language.base import Part
 from bbsd.language.view import View
-from bbsd.report.reference import BLOCKS, SECTIONS, keys_text, mistakes_text, regenerate
+from bbsd.report.reference import BLOCKS, SECTIONS, keys_text, mistakes_text, regenerate, warnings_text
 
 
 def subclasses(part):
@@ -48,6 +48,5 @@ def test_a_key_has_its_kind_bounds_default_and_meaning(row):
 
 
 def test_every_code_has_a_row():
-    assert [line.split(" | ")[0].removeprefix("| ") for line in mistakes_text().splitlines()[2:]] == list(
-        KINDS
-    )
+    rows = [*mistakes_text().splitlines()[2:], *warnings_text().splitlines()[2:]]
+    assert [line.split(" | ")[0].removeprefix("| ") for line in rows] == list(KINDS)

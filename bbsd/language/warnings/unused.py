@@ -1,0 +1,39 @@
+"""Names that nothing uses."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.expression.syntax.mistakes import KEY, Mistake
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.language.validation import LocatedMistake
+    from bbsd.language.warnings.uses import Uses
+
+WORDS = {
+    "constants": "constant",
+    "world": "value of the world",
+    "state": "state",
+    "definitions": "definition",
+    "sensors": "sensor",
+}
+
+
+def unused_names(uses: Uses) -> Iterator[LocatedMistake]:
+    """Yield a warning for each name that does not come to matter."""
+    for name, path in uses.made.items():
+        if name not in uses.live:
+            word, users = WORDS[str(path[-2])], uses.users(name)
+            message = f"nothing uses the {word} {name}"
+            if users:
+                shown = (
+                    f"{users[0]}, which is of no use itself"
+                    if len(users) == 1
+                    else f"{users[0]} and {len(users) - 1} more, which are of no use themselves"
+                )
+                message = f"the {word} {name} is used only by {shown}"
+            elif name in uses.needs.get(name, ()):
+                message = f"the {word} {name} is used only to compute itself"
+            yield path, Mistake("BB201", message, KEY, "use it where it was meant, or leave it out")

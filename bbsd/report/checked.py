@@ -1,0 +1,69 @@
+"""What `bbsd check` found in specs, as text for people and as plain data for programs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bbsd.errors import Severity, escape, render_json, render_text
+from bbsd.report.numbers import count
+from bbsd.report.size import size_text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from bbsd.errors import Diagnosis, Place
+    from bbsd.language.meaning import Meaning
+
+WORDS = {Severity.MISTAKE: "mistake", Severity.WARNING: "warning"}
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """A spec's file, its diagnoses, the line that a place is on, and its meaning; None where it has mistakes."""
+
+    file: str
+    diagnoses: tuple[Diagnosis, ...]
+    line: Callable[[Place], str]
+    meaning: Meaning | None
+
+    def count(self, severity: Severity) -> int:
+        """Return how many diagnoses are that severe."""
+        return sum(each.severity is severity for each in self.diagnoses)
+
+
+def checked_text(checked: Checked, *, color: bool, strict: bool) -> str:
+    """Return the diagnoses of a spec and a verdict; where warnings count as mistakes, a spec with some is not ok."""
+    diagnoses = [render_text(each, checked.line(each.place), color) for each in checked.diagnoses]
+    return "\n\n".join([*diagnoses, _verdict(checked, strict=strict)])
+
+
+def _verdict(checked: Checked, *, strict: bool) -> str:
+    found = count_text(checked.diagnoses)
+    if checked.meaning is None:
+        return f"{found} in {escape(checked.file)}"
+    words = [*([] if found and strict else ["ok"]), *([found] if found else [])]
+    return f"{escape(checked.file)}: {', '.join(words)} ({size_text(checked.meaning)})"
+
+
+def count_text(diagnoses: Iterable[Diagnosis]) -> str:
+    """Return how many mistakes and warnings there are: `1 mistake and 2 warnings`; '' where there are none."""
+    severities = [each.severity for each in diagnoses]
+    numbers = ((severities.count(severity), word) for severity, word in WORDS.items())
+    return " and ".join(count(number, word) for number, word in numbers if number)
+
+
+def checked_plain(specs: Sequence[Checked]) -> dict[str, Any]:
+    """Return the diagnoses of all specs, and of each spec how many there are."""
+    return {
+        "diagnoses": render_json(each for checked in specs for each in checked.diagnoses),
+        "specs": [_plain(checked) for checked in specs],
+    }
+
+
+def _plain(checked: Checked) -> dict[str, Any]:
+    return {
+        "file": checked.file,
+        "mistakes": checked.count(Severity.MISTAKE),
+        "warnings": checked.count(Severity.WARNING),
+    }
