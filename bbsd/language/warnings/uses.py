@@ -6,7 +6,7 @@ from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.tree import names_used
+from bbsd.expression.syntax.tree import functions_called, names_used
 from bbsd.language.base import Part
 from bbsd.language.field_types import Expression, signature
 
@@ -35,11 +35,12 @@ class Uses:
 
 def uses_of(spec: Spec) -> Uses:
     """Return which names of a spec come to matter."""
+    functions = frozenset(name for name, *rest in map(signature, spec.environment.definitions) if rest)
     owned: defaultdict[str, set[str]] = defaultdict(set)
-    for owner, names in _owned(spec):
-        owned[owner] |= names
+    for owner, value, hidden in _owned(spec):
+        owned[owner] |= _names_in(value, functions, hidden)
     needs = {owner: frozenset(names) for owner, names in owned.items()}
-    return Uses(_made(spec), needs, _reached(_roots(spec), needs))
+    return Uses(_made(spec), needs, _reached(_roots(spec, functions), needs))
 
 
 def _made(spec: Spec) -> dict[str, Path]:
@@ -51,30 +52,28 @@ def _made(spec: Spec) -> dict[str, Path]:
     return made | {name: ("environment", "sensors", name) for name in environment.sensors}
 
 
-def _owned(spec: Spec) -> Iterator[tuple[str, frozenset[str]]]:
-    """Yield the names that the value of a name uses: once for each expression that sets it."""
+def _owned(spec: Spec) -> Iterator[tuple[str, object, frozenset[str]]]:
+    """Yield what gives a name its value, and the parameters in it."""
     environment = spec.environment
     for name, value in spec.constants.items():
-        yield name, _names_in(value)
+        yield name, value, frozenset()
     for block in OWNED_BLOCKS:
         for key, value in getattr(environment, block).items():
             name, *parameters = signature(key)
-            yield name, _names_in(value, frozenset(parameters))
+            yield name, value, frozenset(parameters)
     for behavior in spec.behaviors.values():
         for sets in behavior.actions.values():
-            yield from ((target, _names_in(value)) for target, value in sets.items())
+            yield from ((target, value, frozenset()) for target, value in sets.items())
 
 
-def _roots(spec: Spec) -> frozenset[str]:
+def _roots(spec: Spec, functions: frozenset[str]) -> frozenset[str]:
     """Return the names that matter by themselves: wherever expressions stand that give no name its value."""
     environment = spec.environment
-    found = _names_in({key: value for key, value in spec.values_by_key().items() if key not in NOT_ROOTS})
-    found |= _names_in(
-        [value for key, value in environment.values_by_key().items() if key not in OWNED_BLOCKS]
-    )
-    for behavior in spec.behaviors.values():
-        found |= _names_in([value for key, value in behavior.values_by_key().items() if key != "actions"])
-        found |= frozenset(behavior.inputs)
+    behaviors = spec.behaviors.values()
+    roots: list[object] = [value for key, value in spec.values_by_key().items() if key not in NOT_ROOTS]
+    roots += [value for key, value in environment.values_by_key().items() if key not in OWNED_BLOCKS]
+    roots += [value for each in behaviors for key, value in each.values_by_key().items() if key != "actions"]
+    found = _names_in(roots, functions).union(*(each.inputs for each in behaviors))
     return found if environment.outside is None else found | frozenset(environment.outside.actions)
 
 
@@ -91,8 +90,13 @@ def _reached(roots: frozenset[str], needs: Mapping[str, frozenset[str]]) -> froz
     return frozenset(reached)
 
 
-def _names_in(value: object, hidden: frozenset[str] = frozenset()) -> frozenset[str]:
-    return frozenset().union(*(names_used(each.tree, hidden) for each in expressions_below(value)))
+def _names_in(
+    value: object, functions: frozenset[str], hidden: frozenset[str] = frozenset()
+) -> frozenset[str]:
+    """Return the names that the expressions in a part of a spec use, and which of its functions they call."""
+    trees = [each.tree for each in expressions_below(value)]
+    names = frozenset[str]().union(*(names_used(tree, hidden) for tree in trees))
+    return names | functions.intersection(frozenset[str]().union(*map(functions_called, trees)))
 
 
 def expressions_below(value: object) -> Iterator[Expression]:
