@@ -6,7 +6,7 @@ from pathlib import Path
 from tests.unit.cli.commands import run
 
 SPECS = Path(__file__).parents[2] / "specs"
-WRONG, RIGHT = SPECS / "invalid/BB020_top.yaml", SPECS / "mended/BB201_unused.yaml"
+WRONG, RIGHT = SPECS / "invalid/BB020_behavior.yaml", SPECS / "mended/BB201_unused.yaml"
 ODD = SPECS / "warned/BB201_unused.yaml"
 
 
