@@ -5,8 +5,11 @@ VENV := .venv
 BIN := $(VENV)/bin
 # The peers have one of their own: numba would import what they need in every process that is measured.
 PEERS := .venv-peers
+# What checks a release is none of what is released.
+RELEASE := .venv-release
+LOWEST := .venv-lowest
 
-.PHONY: demo test quick lint unit claims worlds optimum tables arms methods fuzz faults figures bench clean
+.PHONY: demo test quick lint unit claims worlds optimum tables arms methods fuzz faults figures bench release-check lowest clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -82,6 +85,14 @@ figures: $(VENV)/.demo
 bench: $(VENV)/.demo $(PEERS)/.bench
 	$(PEERS)/bin/python -m benchmarks --python $(BIN)/python $(PART)
 
+# What is handed out: release/. Wheel and source archive are built, checked, and used where no checkout is.
+release-check: $(RELEASE)/.release
+	$(RELEASE)/bin/python -m release
+
+# The quick tests with the lowest versions of what pyproject.toml asks for.
+lowest: $(LOWEST)/.lowest
+	$(LOWEST)/bin/pytest -q -n 2 --dist worksteal -m "not slow" --ignore tests/end_to_end --hypothesis-profile quick
+
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
@@ -100,5 +111,18 @@ $(PEERS)/.bench: pyproject.toml
 	-$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	touch $@
 
+$(RELEASE)/.release: pyproject.toml
+	$(PYTHON) -m venv $(RELEASE)
+	$(RELEASE)/bin/python -m pip install --quiet --disable-pip-version-check --editable ".[release]"
+	touch $@
+
+$(LOWEST)/.lowest: pyproject.toml
+	rm -rf $(LOWEST)
+	$(PYTHON) -m venv $(LOWEST)
+	$(PYTHON) -m release.lowest > $(LOWEST)/constraints.txt
+	$(LOWEST)/bin/python -m pip install --quiet --disable-pip-version-check \
+	  --constraint $(LOWEST)/constraints.txt --editable ".[test]"
+	touch $@
+
 clean:
-	rm -rf $(VENV) $(PEERS) .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis build *.egg-info
+	rm -rf $(VENV) $(PEERS) $(RELEASE) $(LOWEST) .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis build *.egg-info
