@@ -43,7 +43,6 @@ LARGE: Final = frozenset(
         "utility",
         "score",
         "target",
-        "rewards",
         "returns",
     )
 )
