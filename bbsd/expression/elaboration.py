@@ -245,7 +245,20 @@ def _numbers(expr: Call, wanted: int, scope: Scope) -> list[Node]:
 
 def _function(expr: Call, scope: Scope) -> Node:
     function = FUNCTIONS[expr.function]
+    if expr.function == "clip":
+        return _clip(expr, scope)
     return scope.graph.apply(function.operation, *_numbers(expr, function.arity, scope))
+
+
+def _clip(expr: Call, scope: Scope) -> Node:
+    """Return the nodes of `min(max(x, low), high)`, in the same order."""
+    if not has_arguments(expr, 3, scope):
+        return scope.graph.unknown
+    number, low, high = expr.arguments
+    raised = scope.graph.apply(
+        "maximum", _of_kind(number, Kind.NUMBER, scope), _of_kind(low, Kind.NUMBER, scope)
+    )
+    return scope.graph.apply("minimum", raised, _of_kind(high, Kind.NUMBER, scope))
 
 
 def _before(expr: Call, scope: Scope) -> Value:

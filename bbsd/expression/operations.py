@@ -75,7 +75,7 @@ OPERATIONS: Mapping[str, Operation] = MappingProxyType(
         "clamp_index": Operation(functions.clamp_index, Kind.CELL, Wholeness.ALWAYS),
         "tangent_slack": Operation(functions.tangent_slack),
     }
-    | {function.operation: _function(name) for name, function in FUNCTIONS.items()}
+    | {function.operation: _function(name) for name, function in FUNCTIONS.items() if function.operation}
 )
 
 BINDING: Mapping[str, int] = MappingProxyType(

@@ -15,7 +15,7 @@ class Function(NamedTuple):
     arity: int
     """The number of its arguments."""
     operation: str
-    """The name of the kernel's function, and of the operation in graphs."""
+    """The name of the kernel's function, and of the operation in graphs; empty where it consists of others."""
     meaning: str
     """What the manual says of its value."""
     wholeness: Wholeness = Wholeness.NEVER
@@ -31,6 +31,9 @@ FUNCTIONS: dict[str, Function] = {
     "atan": Function(1, "atan", "arc tangent, in radians", is_expensive=True),
     "atan2": Function(2, "atan2", "angle of the point (second, first), in radians", is_expensive=True),
     "ceil": Function(1, "ceil", "smallest whole number not below", Wholeness.ALWAYS),
+    "clip": Function(
+        3, "", "the first, but not below the second, and not above the third", Wholeness.LIKE_OPERANDS
+    ),
     "cos": Function(1, "cos", "cosine of radians", is_expensive=True),
     "degrees": Function(1, "degrees", "radians to degrees"),
     "exp": Function(1, "exp", "power of e", is_expensive=True),
@@ -46,6 +49,7 @@ FUNCTIONS: dict[str, Function] = {
     "sqrt": Function(1, "sqrt", "square root"),
     "tan": Function(1, "tan", "tangent of radians", is_expensive=True),
     "tanh": Function(1, "tanh", "hyperbolic tangent", is_expensive=True),
+    "wrap": Function(1, "wrap", "the angle less whole turns, from -pi, included, up to pi, not included"),
 }
 
 AGGREGATES: dict[str, str] = {

@@ -73,6 +73,7 @@ __all__ = [
     "tangent_slack",
     "tanh",
     "whole_power",
+    "wrap",
 ]
 
 
@@ -144,6 +145,21 @@ def modulo(dividend: float, divisor: float) -> float:
     rest = _remainder(dividend, divisor, select(abs(quotient) < 4503599627370496.0, quotient, NAN))
     wrapped = select(rest * sign(divisor) < 0.0, rest + divisor, rest)
     return select(rest == 0.0, copysign(0.0, divisor), wrapped)
+
+
+TURN = 6.283185307179586  # 2 * pi
+HALF_TURN = 3.141592653589793
+
+
+def wrap(angle: float) -> float:
+    """Return the angle less whole turns of 2 * pi, exactly: -pi <= wrap(x) < pi; NaN beyond 2**52 turns.
+
+    The turn is binary64's 2 * pi, so that angles that were added up of parts of it come back to themselves.
+    """
+    turns = floor(angle * 0.15915494309189535 + 0.5)
+    rest = _remainder(angle, TURN, select(abs(turns) < 4503599627370496.0, turns, NAN))
+    lowered = select(rest >= HALF_TURN, rest - TURN, rest)
+    return select(lowered < -HALF_TURN, lowered + TURN, lowered)
 
 
 # --- Exponentials
@@ -295,6 +311,7 @@ COMPILABLE = (
     _remainder,
     floor_divide,
     modulo,
+    wrap,
     _fraction_of_exponential,
     _power_of_two,
     exp,

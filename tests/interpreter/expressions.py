@@ -146,6 +146,8 @@ def called(call: Call, scope: Scope) -> Value:
         definition = scope.definitions[name]
         local = dict(zip(definition.parameters, values, strict=True))
         return evaluate(definition.body, replace(scope, local=local))
+    if name == "clip":
+        return functions.minimum(functions.maximum(values[0], values[1]), values[2])
     if name in FUNCTIONS:
         return function_named(FUNCTIONS[name].operation)(*values)
     return aggregate(name, values[0] if len(values) == 1 and isinstance(values[0], list) else values)

@@ -97,6 +97,15 @@ static inline double bbsd_modulo(double dividend, double divisor) {
     return rest * bbsd_sign(divisor) < 0.0 ? rest + divisor : rest;
 }
 
+/* The angle less whole turns, -pi included, pi not. */
+static inline double bbsd_wrap(double angle) {
+    const double turns = floor(angle * 0.15915494309189535 + 0.5);
+    const double whole = fabs(turns) < 4503599627370496.0 ? turns : (double)NAN;
+    const double rest = bbsd_remainder(angle, 6.283185307179586, whole);
+    const double lowered = rest >= 3.141592653589793 ? rest - 6.283185307179586 : rest;
+    return lowered < -3.141592653589793 ? lowered + 6.283185307179586 : lowered;
+}
+
 /* exp(r) - 1 for the rest r of x beside the multiple of log 2 in shifted. */
 static inline double bbsd_fraction_of_exponential(double x, double shifted) {
     const double count = shifted - BBSD_SHIFT;

@@ -1,12 +1,14 @@
 import math
+from dataclasses import replace
 
 import pytest
 
 from bbsd.expression import elaboration
 from bbsd.expression.graph import needed
 from bbsd.expression.kinds import Kind
+from bbsd.expression.scope import Definition
 from bbsd.expression.syntax.parsing import parse
-from tests.unit.expression.scopes import marked, mistakes, scope, valued
+from tests.unit.expression.scopes import marked, mistakes, scope, value_at, valued
 
 
 @pytest.mark.parametrize(
@@ -14,7 +16,9 @@ from tests.unit.expression.scopes import marked, mistakes, scope, valued
     [("2 + 3 * 4", 14), ("7 // 2 + 7 % 4", 6), ("-7 // 2", -4), ("2 ** 3 ** 2", 512), ("2 ** -1", 0.5), ("+x", 1.5),
      ("x if ok else 0", 1.5), ("not ok", False), ("1 < x < 2", True), ("x > 2 or ok and x < 2", True),
      ("sqrt(16) + abs(-2) + hypot(3, 4)", 11), ("atan2(0, -1) == pi", True), ("goal", 3), ("table[1]", [3, 4]),
-     ("true == ok", True), ("sign(-3) + round(2.5) + floor(2.9) + ceil(2.1)", 6)],
+     ("true == ok", True), ("sign(-3) + round(2.5) + floor(2.9) + ceil(2.1)", 6),
+     ("clip(7, 0, 5)", 5), ("clip(-7, 0, 5)", 0), ("clip(3, 0, 5)", 3), ("clip(3, 5, 4)", 4),
+     ("wrap(3 * pi) == -pi", True), ("wrap(pi / 2)", 1.5707963267948966)],
 )  # fmt: skip
 def test_values(text: str, value: object) -> None:
     assert valued(text) == value
@@ -133,3 +137,24 @@ def test_draws_in_arms_of_a_conditional_are_both_made() -> None:
     found = elaboration.number(parse("uniform(0, 1) if chance(0.5) else normal(0, 1)"), here)
     drawn = [node.kind for node in needed([found]) if node.operation == "draw"]
     assert sorted(kind.value for kind in drawn) == ["a number", "a number", "a truth"]
+
+
+def test_clip_is_the_same_nodes_as_min_and_max() -> None:
+    here = scope()
+    clipped = elaboration.value(parse("clip(x, -k, k)"), here)
+    assert clipped is elaboration.value(parse("min(max(x, -k), k)"), here)
+
+
+@pytest.mark.parametrize("name", ["clip", "sign"])
+def test_a_definition_of_the_spec_s_own_stands_for_a_function_of_numbers(name: str) -> None:
+    here = scope()
+    own = Definition(("v",), parse("v + 1"), ("definitions", f"{name}(v)"))
+    named = replace(here, names={**here.names, name: own})
+    assert value_at(elaboration.number(parse(f"{name}(1)"), named)) == 2
+
+
+def test_a_value_may_be_called_as_a_function_is() -> None:
+    here = scope()
+    lowest = Definition((), parse("floor(x)"), ("definitions", "floor"))
+    named = replace(here, names={**here.names, "floor": lowest})
+    assert value_at(elaboration.number(parse("floor + floor(2.5)"), named)) == 3

@@ -138,6 +138,23 @@ def test_general_power_is_within_the_stated_error() -> None:
         assert all(ulps(f.power(x, y), mpmath.power(x, y)) <= 2 + 2 * abs(y * math.log(x)) for x, y in points)
 
 
+def test_wrapped_angles_are_exact() -> None:
+    generator = random.Random(25)
+    samplers = (
+        span(-7, 7),
+        span(-1e6, 1e6),
+        multiples_of_half_pi,
+        magnitude(1e-300, 1e16),
+        span(-4e15, 4e15),
+    )
+    turn = mpmath.mpf(2 * math.pi)
+    with mpmath.workprec(200):
+        for angle in (sampler(generator) for sampler in samplers for _ in range(1200)):
+            exact = mpmath.mpf(angle) - turn * mpmath.floor(mpmath.mpf(angle) / turn + mpmath.mpf(0.5))
+            assert mpmath.mpf(f.wrap(angle)) == exact, angle
+            assert -math.pi <= f.wrap(angle) < math.pi
+
+
 def test_whole_power_is_within_the_stated_error() -> None:
     generator = random.Random(24)
     points = [
@@ -264,6 +281,18 @@ def test_division_by_zero_and_infinity_is_numpy_s(dividend: float, divisor: floa
         (f.minimum(NAN, 1.0), NAN),
         (f.maximum(2.0, 3.0), 3.0),
         (f.maximum(NAN, 3.0), NAN),
+        (f.wrap(math.pi), -math.pi),
+        (f.wrap(-math.pi), -math.pi),
+        (f.wrap(3 * math.pi), -math.pi),
+        (f.wrap(math.nextafter(math.pi, 0.0)), math.nextafter(math.pi, 0.0)),
+        (f.wrap(math.nextafter(-math.pi, -4.0)), math.nextafter(-math.pi, -4.0) + 2 * math.pi),
+        (f.wrap(1.5 * math.pi), -0.5 * math.pi),
+        (f.wrap(2 * math.pi), 0.0),
+        (f.wrap(-1e-20), -1e-20),
+        (f.wrap(-0.0), 0.0),
+        (f.wrap(1e300), NAN),
+        (f.wrap(INF), NAN),
+        (f.wrap(NAN), NAN),
         (f.degrees(math.pi), 180.0),
         (f.radians(180.0), math.pi),
     ],
@@ -308,6 +337,7 @@ EXPRESSIONS = (
     "floor(x)",
     "ceil(x)",
     "round_half_even(x)",
+    "wrap(x)",
     "sign(x)",
     "whole_power(x, 3)",
     "whole_power(x, -2)",

@@ -19,7 +19,7 @@ from tests.unit.exports.designs import tool
 from tests.unit.kernel.test_functions import SPECIAL
 
 ONE = ("acos", "asin", "atan", "ceil", "cos", "degrees", "exp", "floor", "log", "log10", "log2", "radians")
-ONE += ("round_half_even", "sign", "sin", "sqrt", "tan", "tanh", "abs")
+ONE += ("round_half_even", "sign", "sin", "sqrt", "tan", "tanh", "abs", "wrap")
 TWO = ("atan2", "floor_divide", "hypot", "maximum", "minimum", "modulo", "power")
 WHOLE = ("clamp_index", "whole_power")
 ALL = (*ONE, *TWO, *WHOLE)
