@@ -9,6 +9,7 @@ import numpy as np
 from bbsd.agent.inputs import BadInput, complaint
 from bbsd.agent.writing import KEY, STEP, decision_lines, outcome_names
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import Variable, variable_text
 from bbsd.kernel import functions, streams
 from bbsd.kernel.keys import keys
 from bbsd.kernel.modules import load_kernel
@@ -48,7 +49,7 @@ class Many:
     def __init__(self, program: Program, start: Sequence[float], key: int, n: int) -> None:
         self._program = program
         self._many = _compiled(program)
-        self._names = names_set(program)
+        self._names = [*map(variable_text, variables_set(program))]
         self._start = np.array(start, np.float64).reshape(-1, 1)
         self._keys_of_lanes = keys(key, 0, n)
         self._episodes = np.full(n, -1, np.int64)
@@ -92,9 +93,9 @@ def _compiled(program: Program) -> Callable[..., None]:
     return many
 
 
-def names_set(program: Program) -> list[str]:
-    """Return the state that some action sets, in the order of the spec's actions."""
-    return [*dict.fromkeys(name for sets in program.needs.sets.values() for name in sets)]
+def variables_set(program: Program) -> list[Variable]:
+    """Return the state, and the elements of lists, that some action sets, in the order of the spec's actions."""
+    return [*dict.fromkeys(variable for sets in program.needs.sets.values() for variable in sets)]
 
 
 def loop_source(program: Program) -> str:
@@ -146,16 +147,16 @@ def loop_source(program: Program) -> str:
 
 def _outcomes(program: Program, used: set[str]) -> list[str]:
     """Return the body of `outcome`, which stores what an action sets, and what is kept then."""
-    lines, rows = list[str](), {name: row for row, name in enumerate(names_set(program))}
+    lines, rows = list[str](), {variable: row for row, variable in enumerate(variables_set(program))}
     for number in (*program.needs.sets, 0):
         body = program.body(used)
         if number:
             body.say(f"if number == {number}:")
             body = body.inner()
         outcome = outcome_names(program.needs, number, program.kept, body)
-        for name, text in outcome.sets.items():
-            kind = program.needs.sets[number][name].kind
-            body.say(f"sets[{rows[name]}, lane] = {STORED.get(kind, '{}').format(text)}")
+        for variable, text in outcome.sets.items():
+            kind = program.needs.sets[number][variable].kind
+            body.say(f"sets[{rows[variable]}, lane] = {STORED.get(kind, '{}').format(text)}")
         for place, (slot, text) in enumerate(zip(program.kept, outcome.kept, strict=True)):
             kind = program.needs.next[slot].kind
             body.say(f"kept[{place}, lane] = {STORED.get(kind, '{}').format(text)}")

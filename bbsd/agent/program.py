@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bbsd.agent.inputs import complaint
 from bbsd.agent.writing import KEY, STEP, Body, decision_lines, outcome_names
+from bbsd.expression.node_data import variable_text
 from bbsd.kernel import functions, streams
 from bbsd.kernel.primitives import INFINITY, NAN
 from bbsd.language.meaning.tables.labels import Numbers
@@ -138,7 +139,7 @@ def _outcome(program: Program, number: int, used: set[str]) -> list[str]:
             program.controller.actions[number - 1].behavior,
             program.controller.actions[number - 1].name,
         )
-    sets = ", ".join(f"{name!r}: {text}" for name, text in outcome.sets.items())
+    sets = ", ".join(f"{variable_text(variable)!r}: {text}" for variable, text in outcome.sets.items())
     kept = "".join(f"{text}, " for text in outcome.kept)
     body.say(f"return {ACT}({number}, {behavior!r}, {action!r}, {{{sets}}}), ({kept})")
     return [f"def outcome_{number}({program.arguments}):", *body.lines]

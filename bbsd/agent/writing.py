@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 from math import isinf, isnan
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.architecture.needs import ACTED, plain_name
+from bbsd.architecture.needs import ACTED, plain_variable
 from bbsd.expression.graph import needed, value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.node_data import Slot
+from bbsd.expression.node_data import Slot, Variable
 from bbsd.expression.operations import BINDING
 
 if TYPE_CHECKING:
@@ -170,11 +170,9 @@ def place_text(layer: Layer, cells: Sequence[str]) -> str:
 
 def outcome_names(needs: RobotNeeds, number: int, kept: Sequence[Slot], body: Body) -> Outcome:
     """Write what an action sets, and what is kept for the next step once it has."""
-    sets = {name: body.text(node) for name, node in needs.sets.get(number, {}).items()}
+    sets = {variable: body.text(node) for variable, node in needs.sets.get(number, {}).items()}
     acted = {
-        slot: sets[plain_name(slot.name)]
-        if plain_name(slot.name) in sets
-        else body.text(needs.held[plain_name(slot.name)])
+        slot: sets.get(plain_variable(slot)) or body.text(needs.held[plain_variable(slot)])
         for slot in slots_in(needs.next[each] for each in kept)
         if slot.name.startswith(ACTED)
     }
@@ -185,7 +183,7 @@ def outcome_names(needs: RobotNeeds, number: int, kept: Sequence[Slot], body: Bo
 class Outcome(NamedTuple):
     """The names of the values that an action sets, and of those that are kept."""
 
-    sets: Mapping[str, str]
+    sets: Mapping[Variable, str]
     kept: tuple[str, ...]
 
 
@@ -205,7 +203,7 @@ def slots_read(needs: RobotNeeds) -> tuple[set[Slot], list[Slot]]:
         if slot in given or slot in kept:
             continue
         if slot.name.startswith(ACTED):
-            waiting |= slots_in([needs.held[plain_name(slot.name)]])
+            waiting |= slots_in([needs.held[plain_variable(slot)]])
         elif slot in needs.next:
             kept.add(slot)
             waiting |= slots_in([needs.next[slot]])

@@ -83,7 +83,7 @@ def settings(meaning: Meaning) -> Iterator[Setting]:
             yield from _literal(slot.name, (node,), ("environment", "state", slot.name))
     for module in meaning.episode.modules:
         for action, sets in module.actions.items():
-            for name, nodes in sets.items():
+            for (name, _), nodes in sets.items():
                 yield from _literal(name, nodes, ("behaviors", module.name, "actions", action, name))
 
 

@@ -12,6 +12,7 @@ from bbsd.explanation import explain_architecture
 from bbsd.explanation.text import layer_sentences
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.node_data import variable_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -65,7 +66,11 @@ def exported_design(meaning: Meaning, architecture: Architecture) -> Exported:
 def fixed_values(meaning: Meaning) -> tuple[Mapping[str, float | bool], ...]:
     """Return the values of `Exported.fixed`."""
     return tuple(
-        {name: value for name, nodes in sets.items() if (value := _fixed(meaning, nodes)) is not None}
+        {
+            variable_text(variable): value
+            for variable, nodes in sets.items()
+            if (value := _fixed(meaning, nodes)) is not None
+        }
         for module in meaning.episode.modules
         for sets in module.actions.values()
     )

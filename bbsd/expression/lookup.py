@@ -57,9 +57,11 @@ def name_value(expr: Name, scope: Scope, elaborate: Elaborate) -> Value:
 def _without_value(expr: Name, scope: Scope) -> Node:
     name, span = expr.name, expr.span
     match scope.names.get(name):
-        case PerRobot():
+        case PerRobot(value=value_for):
             message = f"{name} is one value for each robot; here the team is meant"
-            advice = f"use an aggregate, like max({name}[r] for r in team), or one robot's, like {name}[0]"
+            place = "[0]" * _depth(value_for(0))
+            one, other = f"{name}[r]{place}", f"{name}[0]{place}"
+            advice = f"use an aggregate, like max({one} for r in team), or one robot's, like {other}"
             return scope.mistake("BB059", message, span, advice)
         case Definition(parameters=parameters):
             message = f"{name} needs arguments: {name}({', '.join(parameters)})"
@@ -128,8 +130,14 @@ def element(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
         return report_unseen(
             f"{name} of another robot", expr.of.span, scope, "" if scope.local else render(expr)
         )
+    if (robot := _robot_first(expr, scope, elaborate)) is not None:
+        return _element_of_robot(expr, robot, scope, elaborate)
     index = require_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
     items = _values_of_robots(expr.of, index, scope, elaborate) or elaborate(expr.of, scope)
+    return _picked(items, index, expr, scope)
+
+
+def _picked(items: Value, index: Node, expr: Index, scope: Scope) -> Value:
     if isinstance(items, Node):
         if items.kind is Kind.UNKNOWN:
             return items
@@ -157,6 +165,42 @@ def _values_of_robots(of: Expr, index: Node, scope: Scope, elaborate: Elaborate)
     return tuple(values)
 
 
+def _robot_first(expr: Index, scope: Scope, elaborate: Elaborate) -> Name | None:
+    """Return the name of the list that is indexed, where it is each robot's and the first index is the robot.
+
+    So it is for the team, and for a robot with one index more than the list has.
+    """
+    of, n_indices = expr.of, 1
+    while isinstance(of, Index):
+        of, n_indices = of.of, n_indices + 1
+    if not isinstance(of, Name) or of.name in scope.local:
+        return None
+    binding = scope.names.get(of.name)
+    if not (isinstance(binding, PerRobot) or (isinstance(binding, Definition) and not binding.parameters)):
+        return None
+    depth = _depth(name_value(of, scope if scope.robot is not None else scope.of_robot(0), elaborate))
+    return of if depth and (n_indices == depth + 1 or scope.robot is None) else None
+
+
+def _depth(value: Value) -> int:
+    """Return how many indices lead to a scalar of a value."""
+    return 1 + _depth(value[0]) if isinstance(value, tuple) and value else 0
+
+
+def _element_of_robot(expr: Index, name: Name, scope: Scope, elaborate: Elaborate) -> Value:
+    """Return a robot's list, or something in it: the first index is the robot."""
+    if scope.behavior:
+        text = "" if scope.local else render(expr)
+        return report_unseen(f"{name.name} of another robot", name.span, scope, text)
+    index = require_kind(elaborate(expr.index, scope), Kind.NUMBER, expr.index.span, scope)
+    items: Value
+    if isinstance(expr.of, Index):
+        items = _element_of_robot(expr.of, name, scope, elaborate)
+    else:
+        items = tuple(name_value(name, scope.of_robot(robot), elaborate) for robot in range(scope.robots))
+    return _picked(items, index, expr, scope)
+
+
 def _name_of_robots(of: Expr, scope: Scope, elaborate: Elaborate) -> str | None:
     """Return the indexed name if it has one value for each robot; None where the behavior's robot has a list."""
     if not isinstance(of, Name) or of.name in scope.local:
@@ -169,7 +213,7 @@ def _name_of_robots(of: Expr, scope: Scope, elaborate: Elaborate) -> str | None:
 def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Value:
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
-    if _is_plain(at) and not 0 <= value_of(index) < len(items):
+    if is_plain_number(at) and not 0 <= value_of(index) < len(items):
         message = (
             f"there is no element {value_of(index):g}; the {len(items)} count from 0 to {len(items) - 1}"
         )
@@ -183,7 +227,7 @@ def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Valu
     return pick(items, index, scope.graph)
 
 
-def _is_plain(at: Expr) -> bool:
+def is_plain_number(at: Expr) -> bool:
     """Return whether an index is written as a number."""
     return isinstance(at, Number) or (isinstance(at, Unary) and isinstance(at.operand, Number))
 

@@ -17,6 +17,12 @@ Variable = tuple[str, tuple[int, ...]]
 """What all robots have a slot of: a name, and the place in a list."""
 
 
+def variable_text(variable: Variable) -> str:
+    """Return what people call a value, or an element of a list: `waiting[2]`."""
+    name, place = variable
+    return name + "".join(f"[{index}]" for index in place)
+
+
 class Literal(NamedTuple):
     """A number, a truth or a cell index, written in the node itself."""
 
@@ -46,8 +52,13 @@ class Slot(NamedTuple):
         """Whether the value is no one's of the spec, so that no trace shows it."""
         return self.name.startswith(HIDDEN)
 
+    def label(self, robots: int) -> str:
+        """Return what people call the slot: `height_0` with several robots, `sonar[3]` for an element."""
+        name = self.name if self.robot is None or robots == 1 else f"{self.name}_{self.robot}"
+        return variable_text((name, self.place))
+
     def text(self, robots: int) -> str:
-        """Return what people call the slot: `height_0` with several robots, `sonar_3` for an element."""
+        """Return the slot's name in kernels: `height_0` with several robots, `sonar_3` for an element."""
         robot = [self.robot] if self.robot is not None and robots > 1 else []
         return "_".join([self.name, *(str(part) for part in (*robot, *self.place))])
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import Diagnosis, Severity, SpecError
 from bbsd.errors.catalog import severity_of
-from bbsd.expression.syntax.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
 from bbsd.language.overrides import FILE as OVERRIDES
@@ -159,8 +159,13 @@ def _has_merged(files: Lineage) -> bool:
 def _place(located: LocatedMistake, files: Lineage, data: Data, overrides: Sequence[Override]) -> Place:
     path, mistake = located
     nearest = existing(path, data)
-    span = None if mistake.span in (KEY, WHOLE) or nearest != path else mistake.span
-    on_key = mistake.span == KEY or any(isinstance(segment, str) for segment in path[len(nearest) :])
+    in_key = characters_of_key(mistake.span)
+    span = None if mistake.span in (KEY, WHOLE) or nearest != path else in_key or mistake.span
+    on_key = (
+        mistake.span == KEY
+        or in_key is not None
+        or any(isinstance(segment, str) for segment in path[len(nearest) :])
+    )
     offset, length = (span.start, span.length) if span else (None, 1)
     for override in reversed(overrides):
         if nearest[: len(override.path)] == override.path:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bbsd.expression.node_data import Slot
+    from bbsd.expression.node_data import Slot, Variable
 
 BEFORE = "before "
 """Begins the name of what a value was at the decision before; no name of a spec has a blank."""
@@ -26,6 +26,11 @@ def acted(slot: Slot) -> Slot:
 def now(slot: Slot) -> Slot:
     """Return the slot of the same value now."""
     return slot._replace(name=plain_name(slot.name))
+
+
+def plain_variable(slot: Slot) -> Variable:
+    """Return the spec's name for the value of a slot at whichever moment, and the place in a list."""
+    return plain_name(slot.name), slot.place
 
 
 def plain_name(name: str) -> str:

@@ -14,7 +14,7 @@ from bbsd.architecture.needs.sensors import Sensors, sensors_of
 from bbsd.architecture.policy import joint_space
 from bbsd.errors import UsageError, did_you_mean
 from bbsd.expression.graph import Level, Node, needed
-from bbsd.expression.node_data import Slot
+from bbsd.expression.node_data import Slot, Variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -48,10 +48,10 @@ class RobotNeeds:
 
     cells: Mapping[int, Node]
     """For each dimension of the controller that a layer uses, the index of its present cell, or a truth."""
-    sets: Mapping[int, Mapping[str, Node]]
-    """For each action that a table contains, by its number, the values that it sets."""
-    held: Mapping[str, Node]
-    """What each state variable that actions set has before they do."""
+    sets: Mapping[int, Mapping[Variable, Node]]
+    """For each action that a table contains, by its number, what it sets: state, or each element that it may set."""
+    held: Mapping[Variable, Node]
+    """What each state variable that actions set, and each element of one, has before they do."""
     start: Mapping[Slot, Node]
     """What is kept, and its value before the first step; only constants occur in it."""
     next: Mapping[Slot, Node]
@@ -147,6 +147,7 @@ class _Analysis:
         self.meaning, self.controller, self.sensors = meaning, controller, sensors
         self.episode, self.environment = meaning.episode, meaning.spec.environment
         self.team = range(self.environment.robots)
+        self.slots = _slots_by_name(self.episode.start)
         self.actions = _actions_in_tables(controller)
         self.targets = self._targets()
         self.after_actions = self._acted_leaves()
@@ -175,18 +176,18 @@ class _Analysis:
     def _targets(self) -> dict[str, None]:
         """Return the state variables that the design's actions set, in their order in the spec."""
         every = [sets for module in self.episode.modules for sets in module.actions.values()]
-        used = {target for number in self.actions for target in every[number - 1]}
+        used = {name for number in self.actions for name, _ in every[number - 1]}
         return {name: None for name in self.environment.state if name in used}
 
     def _has_known_start(self, name: str) -> bool:
-        starts = [self.episode.start[Slot(name, robot)] for robot in self.team]
+        starts = [self.episode.start[slot] for robot in self.team for slot in self._own_slots(name, robot)]
         return not any(node.operation in FROM_OUTSIDE for node in needed(starts))
 
     def _is_fixed(self, name: str, measured: Collection[str]) -> bool:
         """Return whether state has its start at every decision: it never changes, or each step sets it back."""
         if name in measured or not self._has_known_start(name):
             return False
-        slots = [Slot(name, robot) for robot in self.team]
+        slots = [slot for robot in self.team for slot in self._own_slots(name, robot)]
         if name not in self.targets and name not in self.environment.dynamics:
             return True
         return all(self._after(slot) is self.episode.start[slot] for slot in slots)
@@ -205,11 +206,15 @@ class _Analysis:
 
     def _is_known(self, name: str, robot: int) -> bool:
         """Return whether a robot knows all from which the next value follows once its actions are done."""
-        leaves = needed([self._after(Slot(name, robot))])
+        leaves = needed(map(self._after, self._own_slots(name, robot)))
         return not any(
             leaf.operation == "draw" or (leaf.operation == "slot" and leaf.slot.robot != robot)
             for leaf in leaves
         )
+
+    def _own_slots(self, name: str, robot: int) -> list[Slot]:
+        """Return the slots of a robot's state: one, or one for each element of a list."""
+        return [slot._replace(robot=robot) for slot in self.slots[name]]
 
     # --- Nodes
 
@@ -259,10 +264,16 @@ class _Analysis:
         needs = RobotNeeds(
             {axis: self._known(nodes[axis][robot]) for axis in sorted(axes)},
             {
-                number: {target: self._known(values[robot]) for target, values in every[number - 1].items()}
+                number: {
+                    variable: self._known(values[robot]) for variable, values in every[number - 1].items()
+                }
                 for number in self.actions
             },
-            {name: self._known(self._leaf(Slot(name, robot))) for name in self.targets},
+            {
+                slot.variable: self._known(self._leaf(slot))
+                for name in self.targets
+                for slot in self._own_slots(name, robot)
+            },
             {},
             {},
         )
@@ -321,8 +332,18 @@ class _Analysis:
         )
 
     def _slots_of(self, name: str, *, of_team: bool) -> tuple[Slot, ...]:
-        slots = (slot for slot in self.episode.start if slot.name == name)
-        return tuple(slot for slot in slots if of_team or slot.robot in (None, 0))
+        if not of_team:
+            return tuple(self.slots[name])
+        return tuple(slot for slot in self.episode.start if slot.name == name)
+
+
+def _slots_by_name(slots: Iterable[Slot]) -> dict[str, list[Slot]]:
+    """Return the slots of each name: the world's, or those of robot 0."""
+    by_name: dict[str, list[Slot]] = {}
+    for slot in slots:
+        if not slot.robot:
+            by_name.setdefault(slot.name, []).append(slot)
+    return by_name
 
 
 def _actions_in_tables(controller: Controller) -> list[int]:

@@ -10,13 +10,13 @@ from bbsd.expression.graph import Graph, Level
 from bbsd.language.field_types import Expression
 from bbsd.language.meaning.episode import definitions_at, slots_read, starting_values, stored_sensors
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import Names, scalars_by_slot
+from bbsd.language.meaning.names import Names, refilled, scalars_by_slot
 from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among, within_definitions
 from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.situation import names_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
@@ -69,7 +69,7 @@ class _Resolver:
         earlier = graph.apply("-", names.step, graph.number(1))
         scope = Moment(
             names,
-            {name: tuple(map(self._before, nodes)) for name, nodes in now.items()},
+            {name: tuple(map(self._value_before, values)) for name, values in now.items()},
             earlier,
             sensed=Sensed({key: self._value_before(value) for key, value in stored.values.items()}),
         ).scope
@@ -116,18 +116,13 @@ def _set(sensed: Sensed, name: str, robot: int, nodes: Sequence[Node]) -> None:
     if partition is not None:
         sensed.partitions[name, robot] = replace(partition, index=nodes[0])
     else:
-        sensed.values[name, robot] = _refilled(sensed.values[name, robot], iter(nodes))
+        sensed.values[name, robot] = refilled(sensed.values[name, robot], iter(nodes))
 
 
 def _by_slot(sensed: Sensed, name: str, robot: int) -> dict[Slot, Node]:
     partition = sensed.partitions.get((name, robot))
     value = sensed.values[name, robot] if partition is None else partition.index
     return scalars_by_slot(value, name, robot)
-
-
-def _refilled(shape: Value, nodes: Iterator[Node]) -> Value:
-    """Return a value of the same shape made of other nodes."""
-    return tuple(_refilled(item, nodes) for item in shape) if isinstance(shape, tuple) else next(nodes)
 
 
 def sensor_order(spec: Spec) -> list[str]:

@@ -10,7 +10,7 @@ from bbsd.architecture.controller import command
 from bbsd.architecture.needs import ACTED
 from bbsd.expression.graph import evaluate, needed
 from bbsd.expression.kinds import Kind
-from bbsd.expression.node_data import Slot
+from bbsd.expression.node_data import Slot, Variable
 from bbsd.kernel.functions import cos, floor, log, maximum, minimum, sqrt
 from bbsd.kernel.streams import GOLDEN, fold, mix64, unit, word_of
 
@@ -63,7 +63,7 @@ class Answer:
     """What a robot does: the action's number, what state that actions set is then, and what it keeps."""
 
     action: int
-    set_values: dict[str, Any]
+    set_values: dict[Variable, Any]
     kept: Stored
 
 
@@ -100,8 +100,10 @@ class Player:
         acted |= dict(zip(sets, self.values(sets.values(), situation), strict=True))
         return Answer(action, acted, self._kept(own, situation, acted, action))
 
-    def _kept(self, own: RobotNeeds, situation: Situation, acted: dict[str, Any], action: int) -> Stored:
-        later = {Slot(f"{ACTED}{name}", situation.robot): value for name, value in acted.items()}
+    def _kept(self, own: RobotNeeds, situation: Situation, acted: dict[Variable, Any], action: int) -> Stored:
+        later = {
+            Slot(f"{ACTED}{name}", situation.robot, place): value for (name, place), value in acted.items()
+        }
         after = replace(situation, given=situation.given | later)
         return dict(zip(own.next, self.values(own.next.values(), after, action), strict=True))
 

@@ -103,7 +103,7 @@ class Program:
     @cached_property
     def outputs(self) -> Values:
         """What the robot's actions set."""
-        slots = [Slot(name, 0) for name in self.needs.robots[0].held]
+        slots = [Slot(name, 0, place) for name, place in self.needs.robots[0].held]
         return values_of(slots, self._kinds, Namer({*Namer().taken, "action"}))
 
     def kind_of(self, slot: Slot) -> Kind:

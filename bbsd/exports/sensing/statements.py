@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.architecture.needs import BEFORE
@@ -11,7 +12,7 @@ from bbsd.exports.described import sets_text
 from bbsd.exports.sensing.emission import PLAIN, Block
 from bbsd.exports.sensing.text import TYPES
 from bbsd.expression.graph import Level
-from bbsd.expression.node_data import Slot
+from bbsd.expression.node_data import Slot, Variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -111,11 +112,11 @@ def _act(program: Program, writing: Writing, block: Block) -> list[str]:
     """Return the statements that set what the action sets; what it does not set stays."""
     robots, team = program.needs.robots, program.team
     held = Block(block.namer, [], block.texts)
-    nodes = [team.node(own.held[name] for own in robots) for name in robots[0].held]
+    nodes = [team.node(own.held[variable] for own in robots) for variable in robots[0].held]
     texts = program.emitter.texts(nodes, held)
     lines = [
         *held.lines,
-        *(_set(program, name, text) for name, text in zip(robots[0].held, texts, strict=True)),
+        *(_set(program, variable, text) for variable, text in zip(robots[0].held, texts, strict=True)),
     ]
     cases = [line for number in robots[0].sets for line in _case(program, writing, block, number)]
     if not cases:
@@ -126,9 +127,9 @@ def _act(program: Program, writing: Writing, block: Block) -> list[str]:
 def _case(program: Program, writing: Writing, block: Block, number: int) -> list[str]:
     robots, team, inner = program.needs.robots, program.team, block.inner()
     targets = [*robots[0].sets[number]]
-    nodes = [team.node(own.sets[number][name] for own in robots) for name in targets]
+    nodes = [team.node(own.sets[number][variable] for own in robots) for variable in targets]
     texts = program.emitter.texts(nodes, inner)
-    body = [*inner.lines, *(_set(program, name, text) for name, text in zip(targets, texts, strict=True))]
+    body = [*inner.lines, *map(partial(_set, program), targets, texts)]
     action = program.controller.actions[number - 1]
     return [
         f"case {writing.actions[number]}: {{",
@@ -137,8 +138,9 @@ def _case(program: Program, writing: Writing, block: Block, number: int) -> list
     ]
 
 
-def _set(program: Program, name: str, text: Text) -> str:
-    return f"outputs->{program.outputs.place(Slot(name, 0), 'robot')} = {text.source};"
+def _set(program: Program, variable: Variable, text: Text) -> str:
+    name, place = variable
+    return f"outputs->{program.outputs.place(Slot(name, 0, place), 'robot')} = {text.source};"
 
 
 def _keep(program: Program, block: Block) -> list[str]:

@@ -116,7 +116,7 @@ class Driver:
         """Return an answer as a row; None for what other robots of the team keep, but not this one."""
         return [
             float(answer.action),
-            *(float(answer.set_values[each.slot.name]) for each in self.outputs),
+            *(float(answer.set_values[each.slot.variable]) for each in self.outputs),
             *(_float(answer.kept.get(each.of(situation.robot))) for each in self.memory),
         ]
 

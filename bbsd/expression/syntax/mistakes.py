@@ -12,6 +12,16 @@ KEY = Span(-1, 0)
 """The span of the key of a value."""
 
 
+def in_key(span: Span) -> Span:
+    """Return the span of characters in the key of a value."""
+    return Span(KEY.start - 1 - span.start, span.length)
+
+
+def characters_of_key(span: Span) -> Span | None:
+    """Return the characters of a key that a span of `in_key` means; None for other spans."""
+    return Span(KEY.start - 1 - span.start, span.length) if span.start < KEY.start else None
+
+
 @dataclass(frozen=True, slots=True)
 class Mistake:
     """A diagnosis relative to the text of one expression, to a whole value, or to its key."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class Span(NamedTuple):
@@ -134,6 +137,22 @@ def parts(expr: Expr) -> tuple[Expr, ...]:
             return (of, index)
         case Generator(element=element, source=source):
             return (element, source)
+
+
+def with_spans(expr: Expr, new: Callable[[Span], Span]) -> Expr:
+    """Return an expression with every span of it replaced."""
+
+    def renewed(part: Any) -> Any:  # noqa: ANN401 - a span, an expression, a tuple of them, or what is written
+        match part:
+            case Span():
+                return new(part)
+            case tuple():
+                return tuple(map(renewed, part))
+            case str() | bool() | float():
+                return part
+        return with_spans(part, new)
+
+    return replace(expr, **{field.name: renewed(getattr(expr, field.name)) for field in fields(expr)})
 
 
 def names_used(expr: Expr, hidden: frozenset[str] = frozenset()) -> frozenset[str]:

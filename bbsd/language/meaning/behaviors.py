@@ -13,7 +13,7 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.expression.syntax.tree import Name, Span
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, size_of_field, what_sets
+from bbsd.language.meaning.outside.exchange import names_outside, size_of_field
 from bbsd.language.meaning.partitions import (
     MAX_CELLS,
     TRUTH_CELLS,
@@ -22,6 +22,7 @@ from bbsd.language.meaning.partitions import (
     elaborate_partition,
     is_partition,
 )
+from bbsd.language.meaning.stored.assignments import assignments
 from bbsd.language.meaning.tables.rules import table_of_rules
 from bbsd.language.meaning.tables.symbols import table_of_text
 from bbsd.language.models import When
@@ -30,9 +31,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
 
     from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Variable
     from bbsd.expression.scope import Path, Scope
     from bbsd.language.meaning.moments import Moment
     from bbsd.language.meaning.names import Names
+    from bbsd.language.meaning.stored.forms import Form
     from bbsd.language.meaning.tables.table import Inputs, Table
     from bbsd.language.models import Behavior, PartitionText
 
@@ -45,15 +48,15 @@ class Module:
     """One behavior (1), for all robots.
 
     `inputs` names the cells of each input in the order of the table's dimensions, `cells[robot]` holds the index
-    of the present cell of each, `excited[robot]` whether it is excited, `actions[action][state][robot]` the value
-    that an action sets.
+    of the present cell of each, `excited[robot]` whether it is excited, `actions[action][variable][robot]` the value
+    that a state or an element of one has after an action that may set it.
     """
 
     name: str
     inputs: Inputs
     cells: tuple[tuple[Node, ...], ...]
     excited: tuple[Node, ...]
-    actions: Mapping[str, Mapping[str, tuple[Node, ...]]]
+    actions: Mapping[str, Mapping[Variable, tuple[Node, ...]]]
     table: Table
 
     @property
@@ -76,13 +79,13 @@ class Module:
 
 
 def elaborate_behavior(
-    name: str, behavior: Behavior, decision: Moment, kinds: Mapping[str, Kind]
+    name: str, behavior: Behavior, decision: Moment, forms: Mapping[str, Form]
 ) -> Module | None:
     """Return what a behavior means at the decision; None where its inputs could not be understood."""
     names, path, scope = decision.names, ("behaviors", name), decision.behavior_scope(name)
     excited = tuple(_excited(behavior, scope, (*path, "excited"), robot) for robot in names.robots)
     actions = {
-        action: _action(sets, names, scope, (*path, "actions", action), kinds)
+        action: assignments(sets, names, scope, (*path, "actions", action), forms)
         for action, sets in behavior.actions.items()
     }
     if not 0 < len(actions) <= MAX_ACTIONS and not (names.unusable and not actions):
@@ -131,44 +134,6 @@ def _excited(behavior: Behavior, scope: Scope, path: Path, robot: int) -> Node:
     if behavior.excited is None:
         return scope.graph.truth(value=True)
     return elaboration.truth(behavior.excited.tree, scope.at(path, robot))
-
-
-def _action(
-    sets: Mapping[str, Expression], names: Names, scope: Scope, path: Path, kinds: Mapping[str, Kind]
-) -> dict[str, tuple[Node, ...]]:
-    """Return the values that an action sets, for each robot; only the robot's own state can be set."""
-    nodes = {}
-    for target, expression in sets.items():
-        target_path = (*path, target)
-        if target not in names.spec.environment.state:
-            if target in names_outside(names.spec.environment) and target not in names.unusable:
-                message = f"{what_sets(target)}, and an action cannot set it"
-                names.findings.report(target_path, "BB107", message, KEY, ONLY_OUTSIDE)
-            elif target not in names.unusable:
-                message, advice = _not_state(target, names), "actions set a robot's own state"
-                names.findings.report(target_path, "BB033", message, KEY, advice)
-            continue
-        evaluate = elaboration.truth if kinds[target] is Kind.TRUTH else elaboration.number
-        values = tuple(
-            evaluate(expression.tree, scope.at(target_path, robot, draws=True)) for robot in names.robots
-        )
-        if target not in names.unusable:
-            nodes[target] = values
-    return nodes
-
-
-def _not_state(target: str, names: Names) -> str:
-    environment = names.spec.environment
-    others: dict[str, Collection[str]] = {
-        "a value of the world": environment.world,
-        "a sensor": environment.sensors,
-        "a constant": names.spec.constants,
-        "a definition": names.definitions,
-    }
-    for kind, its_names in others.items():
-        if target in its_names:
-            return f"{target} is {kind}, and an action cannot set it"
-    return f'"{target}" is not state{did_you_mean(target, environment.state)}'
 
 
 def _not_listed(name: str, names: Names) -> tuple[str, Span, str]:
@@ -244,8 +209,8 @@ def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, rob
         value.kind,
         _kind_by_form(environment.sensors.get(name), names),
     ):
-        what = "a list" if isinstance(value, tuple) else "a number"
-        advice = f"cut it: {name}: cut({name}, ...) or {name}: values({name}, first, last)"
+        what, cut = ("a list", f"{name}[0]") if isinstance(value, tuple) else ("a number", name)
+        advice = f"cut it: {name}: cut({cut}, ...) or {name}: values({cut}, first, last)"
         message = f"an input needs a partition, and {name} is {what}"
         names.findings.report(path, "BB030", message, WHOLE, advice)
         return None

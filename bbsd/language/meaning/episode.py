@@ -20,8 +20,8 @@ from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unus
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import Names, Stored, read_slot, read_slots, scalars_by_slot
-from bbsd.language.meaning.outside.checking import report_truths
+from bbsd.language.meaning.names import Names, Stored, read_slots, refilled, scalars_by_slot
+from bbsd.language.meaning.outside.checking import report_sent
 from bbsd.language.meaning.outside.exchange import (
     ONLY_OUTSIDE,
     fractions_outside,
@@ -35,6 +35,7 @@ from bbsd.language.meaning.outside.exchange import (
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
 from bbsd.language.meaning.perceiving import Perceived, SensorFault, decision_perceived
 from bbsd.language.meaning.picture import Picture, elaborate_picture
+from bbsd.language.meaning.stored.forms import Form, fitted, form_of, regular
 from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:
@@ -110,14 +111,14 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
     first = starting_values(names)
     beginning = Moment(names, first, names.graph.number(0), starting=True)
 
-    _report_lengths_by_robot(beginning)
+    _report_lengths_by_robot(first, beginning)
     now = slots_read(first, names)
     decision = decision_at(now, beginning, names)
-    kinds = {name: values[0].kind for name, values in first.items()}
-    report_truths(names.spec.environment.outside, kinds, names.findings)
+    forms = forms_of(first)
+    report_sent(names.spec.environment.outside, forms, names.findings)
     felt = None if fault is None else Perceived(names, first, names.graph.number(0), fault, starting=True)
     perceived = decision if felt is None else decision_perceived(now, felt, names)
-    modules = tuple(modules_at(names, perceived, kinds))
+    modules = tuple(modules_at(names, perceived, forms))
     if sum(len(module.actions) for module in modules) > MAX_ACTIONS_IN_ALL:
         message = f"more than {MAX_ACTIONS_IN_ALL} actions in all"
         names.findings.report(("behaviors",), "BB038", message, KEY)
@@ -125,7 +126,7 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
 
     acted = _act(now, modules, choices, names)
     acting = Moment(names, acted, names.step, sensed=decision.sensed, before=decision.scope)
-    then = _apply_dynamics(acted, acting.scope, kinds, names)
+    then = _apply_dynamics(acted, acting.scope, forms, names)
 
     outcome = Moment(names, then, names.step, before=decision.scope)
     episode = Episode(
@@ -154,11 +155,16 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
     return episode if len(modules) == len(names.spec.behaviors) else None
 
 
-def modules_at(names: Names, decision: Moment, kinds: Mapping[str, Kind]) -> Iterator[Module]:
+def forms_of(stored: Stored) -> dict[str, Form]:
+    """Return the form of each stored value; unknown where it could not be understood."""
+    return {name: form_of(values[0]) or Form(Kind.UNKNOWN) for name, values in stored.items()}
+
+
+def modules_at(names: Names, decision: Moment, forms: Mapping[str, Form]) -> Iterator[Module]:
     """Yield the behaviors that could be understood, up to the one that makes all tables together too large."""
     n_cells = 0
     for name, behavior in names.spec.behaviors.items():
-        module = elaborate_behavior(name, behavior, decision, kinds)
+        module = elaborate_behavior(name, behavior, decision, forms)
         if module is not None:
             yield module
         n_cells += module.n_cells if module else 0
@@ -175,9 +181,9 @@ def starting_values(names: Names) -> Stored:
     """
     environment, graph = names.spec.environment, names.graph
     given = names_outside(environment)
-    starts: dict[tuple[str, int], Node] = {}
+    starts: dict[tuple[str, int], Value] = {}
 
-    def start(name: str, robot: int) -> Node:
+    def start(name: str, robot: int) -> Value:
         if name == EARNED and name in given:
             return graph.number(0)
         if name in given:
@@ -185,7 +191,8 @@ def starting_values(names: Names) -> Stored:
         if (name, robot) not in starts:
             block, owner = ("world", names.team) if name in environment.world else ("state", robot)
             inner = scope.at(("environment", block, name), owner, draws=True)
-            starts[name, robot] = elaboration.scalar(getattr(environment, block)[name].tree, inner)
+            tree = getattr(environment, block)[name].tree
+            starts[name, robot] = regular(elaboration.value(tree, inner), tree.span, inner)
         return starts[name, robot]
 
     bindings: dict[str, Binding] = {
@@ -208,7 +215,7 @@ def slots_read(stored: Stored, names: Names) -> Stored:
     world = names.spec.environment.world
     return {
         name: tuple(
-            read_slot(Slot(name, None if name in world else robot), value, names.graph)
+            read_slots(name, None if name in world else robot, value, names.graph)
             for robot, value in enumerate(values)
         )
         for name, values in stored.items()
@@ -237,18 +244,21 @@ def stored_sensors(beginning: Moment, sensors: Collection[str]) -> Sensed:
 
 def _act(now: Stored, modules: tuple[Module, ...], choices: tuple[Node, ...], names: Names) -> Stored:
     """Return state after the controlling actions' assignments; what is not set stays."""
-    graph = names.graph
-    acted = {name: list(values) for name, values in now.items()}
+    graph, acted = names.graph, _slots_of_state(now, names)
     every_action = [sets for module in modules for sets in module.actions.values()]
     for action, sets in enumerate(every_action, start=1):
-        for target, values in sets.items():
+        for (name, place), values in sets.items():
             for robot, value in enumerate(values):
-                controls = graph.apply("==", choices[robot], graph.cell(action))
-                acted[target][robot] = graph.apply("select", controls, value, acted[target][robot])
-    return {name: tuple(values) for name, values in acted.items()}
+                slot, controls = (
+                    Slot(name, robot, place),
+                    graph.apply("==", choices[robot], graph.cell(action)),
+                )
+                acted[slot] = graph.apply("select", controls, value, acted[slot])
+    nodes = iter(acted.values())
+    return {name: tuple(refilled(value, nodes) for value in values) for name, values in now.items()}
 
 
-def _apply_dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], names: Names) -> Stored:
+def _apply_dynamics(acted: Stored, scope: Scope, forms: Mapping[str, Form], names: Names) -> Stored:
     """Return the next state and world, all at once, from the values after the actions and the snapshot's sensors."""
     environment = names.spec.environment
     given = names_outside(environment)
@@ -263,7 +273,8 @@ def _apply_dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], name
         elif name in acted:
             robots = [names.team] if name in environment.world else names.robots
             then[name] = tuple(
-                _evaluate_as(kinds[name], expression, scope.at(path, robot, draws=True)) for robot in robots
+                _evaluate_as(forms[name], name, expression, scope.at(path, robot, draws=True))
+                for robot in robots
             )
         elif name not in names.unusable:
             hint = did_you_mean(name, acted)
@@ -272,10 +283,9 @@ def _apply_dynamics(acted: Stored, scope: Scope, kinds: Mapping[str, Kind], name
     return then
 
 
-def _evaluate_as(kind: Kind, expression: Expression, scope: Scope) -> Node:
-    if kind is Kind.UNKNOWN:
-        return elaboration.scalar(expression.tree, scope)
-    return (elaboration.truth if kind is Kind.TRUTH else elaboration.number)(expression.tree, scope)
+def _evaluate_as(form: Form, name: str, expression: Expression, scope: Scope) -> Value:
+    value = elaboration.value(expression.tree, scope)
+    return fitted(value, form, name, expression.tree.span, scope)
 
 
 def definitions_at(outcome: Moment) -> dict[Slot, Node]:
@@ -339,25 +349,29 @@ def _picture(first: Stored, beginning: Moment, names: Names) -> Picture | None:
 def _slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
     world = names.spec.environment.world
     return {
-        Slot(name, None if name in world else robot): value
+        slot: node
         for name, values in stored.items()
         for robot, value in enumerate(values)
+        for slot, node in scalars_by_slot(value, name, None if name in world else robot).items()
     }
 
 
-def _report_lengths_by_robot(beginning: Moment) -> None:
-    """Report sensors that are lists of other lengths for other robots: all have the same slots."""
+def _report_lengths_by_robot(first: Stored, beginning: Moment) -> None:
+    """Report state and sensors that are lists of other lengths for other robots: all have the same slots."""
     names = beginning.names
+    values: dict[Path, list[Value]] = {
+        ("environment", "state", name): [*first[name]] for name in names.spec.environment.state
+    }
     for name, sensor in names.spec.environment.sensors.items():
-        if is_partition(sensor) or name in names.unusable:
-            continue
-        shapes = {_shape(beginning.value(name, robot)) for robot in names.robots}
-        if len(shapes) > 1:
+        if not is_partition(sensor) and name not in names.unusable:
+            values["environment", "sensors", name] = [beginning.value(name, robot) for robot in names.robots]
+    for path, of_robots in values.items():
+        if len(set(map(_shape, of_robots))) > 1:
             message, advice = (
                 "this list's length would differ from robot to robot",
                 "let it be the same for all",
             )
-            names.findings.report(("environment", "sensors", name), "BB127", message, WHOLE, advice)
+            names.findings.report(path, "BB127", message, WHOLE, advice)
 
 
 def _shape(value: Value) -> tuple[object, ...]:

@@ -14,10 +14,12 @@ from bbsd.language.meaning.outside.exchange import size_of_field
 from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from bbsd.language.meaning.constants import Constants
     from bbsd.language.models import Spec
 
-Stored = Mapping[str, tuple[Node, ...]]
+Stored = Mapping[str, tuple[Value, ...]]
 """The values of state (one a robot) and of the world (one) at some moment of a step."""
 
 NOT_EARNED = Unusable(
@@ -110,6 +112,11 @@ def read_slots(
             read_slots(name, robot, item, graph, (*position, index)) for index, item in enumerate(like)
         )
     return read_slot(Slot(name, robot, position), like, graph)
+
+
+def refilled(shape: Value, nodes: Iterator[Node]) -> Value:
+    """Return a value of the same shape made of other nodes."""
+    return tuple(refilled(item, nodes) for item in shape) if isinstance(shape, tuple) else next(nodes)
 
 
 def scalars_by_slot(

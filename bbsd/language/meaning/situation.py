@@ -11,6 +11,7 @@ from bbsd.language.meaning.definitions import read_definitions
 from bbsd.language.meaning.episode import (
     decision_at,
     definitions_at,
+    forms_of,
     modules_at,
     slots_read,
     starting_values,
@@ -48,8 +49,7 @@ def modules_in_a_situation(meaning: Meaning, given: Collection[str]) -> tuple[Mo
         for robot in names.robots:
             (after.partition if is_partition(sensor) else after.value)(name, robot)
     decision = Moment(names, now, names.step, sensed=after.sensed)
-    kinds = {name: values[0].kind for name, values in first.items()}
-    return tuple(modules_at(names, decision, kinds))
+    return tuple(modules_at(names, decision, forms_of(first)))
 
 
 def definitions_at_the_start(meaning: Meaning) -> dict[Slot, Node]:

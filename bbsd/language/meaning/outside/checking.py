@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
     from bbsd.expression.scope import Findings, Path
+    from bbsd.language.meaning.stored.forms import Form
     from bbsd.language.models import Environment, Spec
     from bbsd.language.outside import Outside
 
@@ -109,9 +110,16 @@ def _no_state(name: str, spec: Spec) -> str:
     return f'"{name}" is not state{did_you_mean(name, environment.state)}'
 
 
-def report_truths(outside: Outside | None, kinds: Mapping[str, Kind], findings: Findings) -> None:
-    """Report state that is sent though it is a truth: what is sent are numbers."""
+def report_sent(outside: Outside | None, forms: Mapping[str, Form], findings: Findings) -> None:
+    """Report state that is sent though it is a truth or a list: what is sent are numbers."""
     for name in outside.actions if outside else ():
-        if kinds.get(name) is Kind.TRUTH:
+        form = forms.get(name)
+        if form and form.lengths:
+            message, advice = (
+                f"{name} is {form.text}, and what is sent are numbers",
+                "send its elements as states",
+            )
+            findings.report(("environment", "state", name), "BB106", message, advice=advice)
+        elif form and form.kind is Kind.TRUTH:
             message = f"{name} is a truth, and what is sent are numbers"
             findings.report(("environment", "state", name), "BB106", message, advice="start it with 0 or 1")

@@ -52,6 +52,8 @@ class Robot:
         acted = dict(zip(self.needs.held, self.values(self.needs.held.values(), known), strict=True))
         sets = self.needs.sets.get(choice, {})
         acted |= dict(zip(sets, self.values(sets.values(), known), strict=True))
-        after = known | {Slot(f"acted {name}", self.robot): value for name, value in acted.items()}
+        after = known | {
+            Slot(f"acted {name}", self.robot, place): value for (name, place), value in acted.items()
+        }
         self.kept = dict(zip(self.needs.next, self.values(self.needs.next.values(), after), strict=True))
         return choice, acted

@@ -87,7 +87,7 @@ def test_what_actions_set_is_memory_and_all_else_is_given_unless_it_never_change
     needs = needed(ROBOT.format(robots=1))
     assert names(needs) == (["lamp", "place", "clock", "noisy"], ("speed", "charge", "turns"))
     assert [slot.name for slot in needs.robots[0].next] == ["speed", "charge", "turns", "before light"]
-    assert [*needs.robots[0].held] == ["speed", "charge", "turns", "signal"]
+    assert [name for name, _ in needs.robots[0].held] == ["speed", "charge", "turns", "signal"]
     assert [node.operation for node in needs.robots[0].start.values()] == ["literal", "constant", "literal"]
 
 
@@ -168,8 +168,8 @@ def assert_same_decisions(meaning, design, key, **options):
         for k, robot in enumerate(robots):
             choice, after = robot.act(stored)
             assert choice == recording.choices[step, k]
-            for name, value in after.items():
-                assert bits(value) == bits(acted[next(s for s in acted if s.name == name and s.robot == k)])
+            for variable, value in after.items():
+                assert bits(value) == bits(acted[next(s for s in acted if s.variable == variable and s.robot == k)])
 
 
 @pytest.mark.parametrize("raw", [True, False])

@@ -9,7 +9,7 @@ def test_a_module_has_its_nodes_for_each_robot() -> None:
     assert module.inputs == {"reached": ("false", "true")}
     assert len(module.cells) == len(module.excited) == 3
     assert [value_of(node) for node in module.excited] == [True] * 3
-    assert len(module.actions["halt"]["speed"]) == 3
+    assert len(module.actions["halt"]["speed", ()]) == 3
     assert module.n_cells == 2
     assert module.table.is_open
 

@@ -1,0 +1,131 @@
+"""What an action of a behavior sets: the robot's own state, as a whole or element by element."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.errors import did_you_mean
+from bbsd.expression import elaboration
+from bbsd.expression.graph import Node
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
+from bbsd.expression.syntax.tree import Name
+from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, what_sets
+from bbsd.language.meaning.stored.forms import Form, fitted, scalars_of
+from bbsd.language.meaning.stored.targets import (
+    Target,
+    certainly_meet,
+    indices_of,
+    places_set,
+    read_target,
+    with_element,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping, Sequence
+
+    from bbsd.expression.node_data import Variable
+    from bbsd.expression.scope import Path, Scope, Value
+    from bbsd.language.field_types import Expression
+    from bbsd.language.meaning.names import Names
+
+Assignments = dict["Variable", tuple[Node, ...]]
+"""What each scalar of state that an action may change is after it, robot by robot."""
+
+
+def assignments(
+    sets: Mapping[str, Expression], names: Names, scope: Scope, path: Path, forms: Mapping[str, Form]
+) -> Assignments:
+    """Return what an action sets, for each robot; only the robot's own state can be set.
+
+    Elements of one list are set in the order in which they are written: where two are the same, the later one stays.
+    """
+    by_name: dict[str, list[tuple[Path, Target, Expression]]] = {}
+    for key, expression in sets.items():
+        target = read_target(key)
+        if isinstance(target, Mistake):
+            names.findings.mistakes[(*path, key), target] = None
+        else:
+            by_name.setdefault(target.name, []).append(((*path, key), target, expression))
+    nodes: Assignments = {}
+    for name, written in by_name.items():
+        if name not in names.spec.environment.state:
+            for target_path, *_ in written:
+                _report_no_state(name, target_path, names)
+        elif name in names.unusable:
+            for target_path, target, expression in written:
+                _look_for_mistakes(target_path, target, expression, names, scope)
+        else:
+            nodes |= _Setting(name, forms[name], names, scope).nodes(written)
+    return nodes
+
+
+def _look_for_mistakes(
+    path: Path, target: Target, expression: Expression, names: Names, scope: Scope
+) -> None:
+    for robot in names.robots:
+        inner = scope.at(path, robot, draws=True)
+        for index in target.indices:
+            elaboration.number(index, inner)
+        elaboration.value(expression.tree, inner)
+
+
+class _Setting:
+    """Sets one name of state, for all robots."""
+
+    def __init__(self, name: str, form: Form, names: Names, scope: Scope) -> None:
+        self.name, self.form, self.names, self.scope = name, form, names, scope
+        self.places: dict[tuple[int, ...], None] = {}
+        """The scalars that may change."""
+        self.ambiguous: list[Path] = []
+
+    def nodes(self, written: Sequence[tuple[Path, Target, Expression]]) -> Assignments:
+        after = [dict(scalars_of(self._after(written, robot))) for robot in self.names.robots]
+        return {(self.name, place): tuple(values[place] for values in after) for place in sorted(self.places)}
+
+    def _after(self, written: Sequence[tuple[Path, Target, Expression]], robot: int) -> Value:
+        """Return a robot's value after all keys of its name."""
+        own = self.scope.at(written[0][0], robot)
+        value = elaboration.value(Name(self.name, WHOLE), own) if self.form.lengths else None
+        earlier: list[tuple[Node, ...]] = []
+        for path, target, expression in written:
+            inner = self.scope.at(path, robot, draws=True)
+            indices = indices_of(target, self.form, inner)
+            form = Form(self.form.kind, self.form.lengths[len(target.indices) :])
+            called = self.name + "[...]" * len(target.indices)
+            new = fitted(elaboration.value(expression.tree, inner), form, called, expression.tree.span, inner)
+            if indices is None:
+                continue
+            if any(certainly_meet(indices, others) for others in earlier):
+                self._report_twice(path, indices)
+            earlier.append(indices)
+            self.places |= dict.fromkeys(places_set(self.form, indices))
+            value = new if value is None else with_element(value, indices, new, self.scope.graph)
+        return self.form.unknown(self.scope.graph) if value is None else value
+
+    def _report_twice(self, path: Path, indices: Sequence[Node]) -> None:
+        what = f"this element of {self.name}" if indices else self.name
+        message = f"{what} is set twice by this action"
+        advice = "set a list as a whole, or each of its elements once"
+        self.names.findings.report(path, "BB135", message, KEY, advice)
+
+
+def _report_no_state(name: str, path: Path, names: Names) -> None:
+    if name in names_outside(names.spec.environment) and name not in names.unusable:
+        message = f"{what_sets(name)}, and an action cannot set it"
+        names.findings.report(path, "BB107", message, KEY, ONLY_OUTSIDE)
+    elif name not in names.unusable:
+        names.findings.report(path, "BB033", _not_state(name, names), KEY, "actions set a robot's own state")
+
+
+def _not_state(target: str, names: Names) -> str:
+    environment = names.spec.environment
+    others: dict[str, Collection[str]] = {
+        "a value of the world": environment.world,
+        "a sensor": environment.sensors,
+        "a constant": names.spec.constants,
+        "a definition": names.definitions,
+    }
+    for kind, its_names in others.items():
+        if target in its_names:
+            return f"{target} is {kind}, and an action cannot set it"
+    return f'"{target}" is not state{did_you_mean(target, environment.state)}'
