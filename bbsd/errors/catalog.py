@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
 from bbsd.errors.expression_kinds import EXPRESSION_KINDS
 from bbsd.errors.kind import Severity
+from bbsd.errors.list_kinds import LIST_KINDS
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
@@ -36,6 +37,7 @@ KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
         *SPEC_KINDS,
         *EXPRESSION_KINDS,
         *OUTSIDE_KINDS,
+        *LIST_KINDS,
         *ENVIRONMENT_KINDS,
         *WORD_KINDS,
         *WARNING_KINDS,

@@ -364,7 +364,7 @@ SPEC_KINDS = (
         title="a shape that differs from robot to robot",
         explanation=(
             "All robots carry one architecture: each behavior has one table for all of them, so that the cells of an "
-            "input must be the same for every robot, and so must be the length of a list that a sensor is."
+            "input must be the same for every robot, and so must be the length of a list that a sensor or a state is."
         ),
         example="environment:\n  sensors:\n    place: values(round(height), 0, robot + 1)",
         mend="environment:\n  sensors:\n    place: values(round(height), 0, 3)",

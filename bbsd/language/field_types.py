@@ -18,6 +18,8 @@ from bbsd.expression.syntax.text import number_text
 if TYPE_CHECKING:
     from bbsd.expression.syntax.tree import Expr
 
+ELEMENT = re.compile(r"\s*[a-z][a-z0-9_]*\s*\[.*\]\s*", re.DOTALL)
+OF_ACTIONS = "is an element of a list, and only actions set single elements"
 GROUPED = re.compile(r"[1-9][0-9]{0,2}(?:_[0-9]{3})+")
 SIGNATURE = re.compile(r"\s*(?P<name>\w+)\s*(?:\((?P<parameters>[^()]*)\)\s*)?")
 
@@ -169,6 +171,8 @@ def signature(key: str) -> tuple[str, ...]:
 def definition_key(value: str) -> str:
     """Return a definition's key, a name or a name with parameters; raise PydanticCustomError for another text."""
     names = signature(value)
+    if ELEMENT.fullmatch(value):
+        return _checked_name(value, Use.VALUE)
     if not names or not all(map(NAME.match, names)):
         raise _bad_name(value, "cannot be a definition's name; write name or name(a, b), in small letters")
     own, *parameters = names
@@ -183,6 +187,9 @@ def definition_key(value: str) -> str:
 
 
 def _checked_name(value: str, use: Use) -> str:
+    if ELEMENT.fullmatch(value):
+        list_name = value.partition("[")[0].strip()
+        raise _bad_name(value, OF_ACTIONS, f"set the list as a whole, {list_name}: list(...)", "BB134")
     if not NAME.match(value):
         raise _bad_name(value, "cannot be a name; names are small letters, digits and _, a letter first")
     if value in RESERVED[use]:
@@ -194,8 +201,8 @@ def _checked_name(value: str, use: Use) -> str:
     return value
 
 
-def _bad_name(value: str, reason: str, advice: str = "") -> PydanticCustomError:
-    context = {"name": value, "reason": reason, "advice": advice}
+def _bad_name(value: str, reason: str, advice: str = "", code: str = "BB024") -> PydanticCustomError:
+    context = {"name": value, "reason": reason, "advice": advice, "code": code}
     return PydanticCustomError("bad_name", '"{name}" {reason}', context)
 
 

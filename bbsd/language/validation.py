@@ -114,7 +114,7 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
         case "expression" | "mistake":
             return cast("Mistake", error["ctx"]["mistake"])
         case "bad_name":
-            return Mistake("BB024", error["msg"], KEY, error["ctx"]["advice"])
+            return Mistake(error["ctx"]["code"], error["msg"], KEY, error["ctx"]["advice"])
         case "extra_forbidden" if is_goal(path):
             return goal_mistake(path, error["input"])
         case "extra_forbidden":

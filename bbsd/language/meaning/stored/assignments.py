@@ -88,11 +88,12 @@ class _Setting:
         value = elaboration.value(Name(self.name, WHOLE), own) if self.form.lengths else None
         earlier: list[tuple[Node, ...]] = []
         for path, target, expression in written:
-            inner = self.scope.at(path, robot, draws=True)
+            inner, key = self.scope.at(path, robot, draws=True), str(path[-1])
             indices = indices_of(target, self.form, inner)
             form = Form(self.form.kind, self.form.lengths[len(target.indices) :])
-            called = self.name + "[...]" * len(target.indices)
-            new = fitted(elaboration.value(expression.tree, inner), form, called, expression.tree.span, inner)
+            value_set = elaboration.value(expression.tree, inner)
+            instead = "" if isinstance(value_set, tuple) else f", or set an element: {key}[0]: ..."
+            new = fitted(value_set, form, key, expression.tree.span, inner, instead)
             if indices is None:
                 continue
             if any(certainly_meet(indices, others) for others in earlier):

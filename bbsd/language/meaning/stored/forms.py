@@ -98,15 +98,21 @@ def _all_items(value: Value) -> Iterator[Value]:
             yield from _all_items(item)
 
 
-def fitted(value: Value, form: Form, name: str, span: Span, scope: Scope) -> Value:
-    """Return a value to be stored under a name of this form; report one of another form, and make it unknown."""
+def fitted(value: Value, form: Form, name: str, span: Span, scope: Scope, instead: str = "") -> Value:
+    """Return a value to be stored under a name of this form; report one of another form, and make it unknown.
+
+    `instead` is what else could be written where the name is a list and the value is not.
+    """
+    if not form.lengths and form.kind is Kind.UNKNOWN:
+        return scope.graph.unknown if isinstance(value, tuple) else value
     if not isinstance(value, tuple) and value.kind is Kind.UNKNOWN:
         return form.unknown(scope.graph)
     if not form.lengths and not isinstance(value, tuple):
-        return value if form.kind is Kind.UNKNOWN else require_kind(value, form.kind, span, scope)
+        return require_kind(value, form.kind, span, scope)
     if _lengths(value) != form.lengths:
         message = f"{name} is {form.text}, and this is {_text_of(value)}"
-        scope.mistake("BB132", message, span, f"write {form.example}" if form.lengths else "")
+        advice = f"write {form.example}{instead}" if form.lengths else "take an element or an aggregate of it"
+        scope.mistake("BB132", message, span, advice)
         return form.unknown(scope.graph)
     return _of_kind(value, form.kind, span, scope)
 

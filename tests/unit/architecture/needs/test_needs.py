@@ -169,7 +169,9 @@ def assert_same_decisions(meaning, design, key, **options):
             choice, after = robot.act(stored)
             assert choice == recording.choices[step, k]
             for variable, value in after.items():
-                assert bits(value) == bits(acted[next(s for s in acted if s.variable == variable and s.robot == k)])
+                assert bits(value) == bits(
+                    acted[next(s for s in acted if s.variable == variable and s.robot == k)]
+                )
 
 
 @pytest.mark.parametrize("raw", [True, False])

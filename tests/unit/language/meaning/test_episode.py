@@ -108,7 +108,7 @@ def test_the_end_is_the_teams() -> None:
      ("{dynamics: {height: tilted}}", "BB055"), ("{sensors: {wide: 'list(1, 2)', sum_of: wide + 1}}", "BB056"),
      ("{sensors: {zone: {a: tilted, b: otherwise}, used: zone}}", "BB067"), ("{world: {wind: height}}", "BB059"),
      ("{definitions: {lucky: chance(0.5)}}", "BB058"), ("{definitions: {f(a): a + hight}}", "BB052"),
-     ("{state: {height: 'list(1, 2)'}}", "BB056")],
+     ("{state: {memory: 'list(1, 2)'}, dynamics: {memory: 3}}", "BB132"), ("{state: {x: 'list(1, 1 < 2)'}}", "BB133")],
 )  # fmt: skip
 def test_mistakes(environment: str, code: str) -> None:
     assert codes(f"environment: {environment}") == [code]
