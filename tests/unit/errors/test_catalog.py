@@ -10,31 +10,22 @@ from bbsd.errors.list_kinds import LIST_KINDS
 from bbsd.errors.outside_kinds import OUTSIDE_KINDS
 from bbsd.errors.spec_kinds import SPEC_KINDS
 from bbsd.errors.text_kinds import TEXT_KINDS
+from bbsd.errors.warning_kinds import WARNING_KINDS
 from bbsd.errors.word_kinds import WORD_KINDS
 
-def test_codes_are_unique_and_ordered_by_their_numbers() -> None:
-    listed = [
-        kind.code
-        for kind in (
-            *TEXT_KINDS,
-            *SPEC_KINDS,
-            *EXPRESSION_KINDS,
-            *OUTSIDE_KINDS,
-            *LIST_KINDS,
-            *ENVIRONMENT_KINDS,
-            *WORD_KINDS,
-        )
-    ]
-from bbsd.errors.warning_kinds import WARNING_KINDS
 LISTED = (
     TEXT_KINDS,
     SPEC_KINDS,
     EXPRESSION_KINDS,
     OUTSIDE_KINDS,
+    LIST_KINDS,
     ENVIRONMENT_KINDS,
     WORD_KINDS,
     WARNING_KINDS,
 )
+
+
+def test_codes_are_unique_and_ordered_by_their_numbers() -> None:
     listed = [kind.code for kinds in LISTED for kind in kinds]
     assert len(KINDS) == len(listed)
     assert list(KINDS) == sorted(listed, key=lambda code: int(code.removeprefix("BB")))
