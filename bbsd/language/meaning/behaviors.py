@@ -22,7 +22,7 @@ from bbsd.language.meaning.partitions import (
     elaborate_partition,
     is_partition,
 )
-from bbsd.language.meaning.stored.assignments import assignments
+from bbsd.language.meaning.setting.assignments import assignments
 from bbsd.language.meaning.tables.rules import table_of_rules
 from bbsd.language.meaning.tables.symbols import table_of_text
 from bbsd.language.models import When
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Variable
     from bbsd.expression.scope import Path, Scope
+    from bbsd.language.meaning.forms import Form
     from bbsd.language.meaning.moments import Moment
     from bbsd.language.meaning.names import Names
-    from bbsd.language.meaning.stored.forms import Form
     from bbsd.language.meaning.tables.table import Inputs, Table
     from bbsd.language.models import Behavior, PartitionText
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
     from bbsd.expression.scope import Findings, Path
-    from bbsd.language.meaning.stored.forms import Form
+    from bbsd.language.meaning.forms import Form
     from bbsd.language.models import Environment, Spec
     from bbsd.language.outside import Outside
 

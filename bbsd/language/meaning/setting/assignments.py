@@ -9,9 +9,9 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import Node
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.syntax.tree import Name
+from bbsd.language.meaning.forms import Form, fitted, scalars_of
 from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, what_sets
-from bbsd.language.meaning.stored.forms import Form, fitted, scalars_of
-from bbsd.language.meaning.stored.targets import (
+from bbsd.language.meaning.setting.targets import (
     Target,
     certainly_meet,
     indices_of,

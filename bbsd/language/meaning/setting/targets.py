@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from bbsd.expression.graph import Graph, Node
     from bbsd.expression.scope import Scope, Value
-    from bbsd.language.meaning.stored.forms import Form
+    from bbsd.language.meaning.forms import Form
 
 
 @dataclass(frozen=True, slots=True)
