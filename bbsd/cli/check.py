@@ -90,9 +90,8 @@ def _checked(spec: Path) -> "Checked":
     try:
         loaded = load(spec)
     except SpecError as error:
-        return Checked(str(spec), error.diagnoses, error.line, None)
-    line = loaded.lineage.error(()).line
-    return Checked(str(spec), loaded.warnings, line, loaded.meaning)
+        return Checked(str(spec), error.diagnoses, error, None)
+    return Checked(str(spec), loaded.warnings, loaded.lineage.error(()), loaded.meaning)
 
 
 def _description(code: str) -> str:

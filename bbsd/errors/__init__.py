@@ -1,7 +1,8 @@
 """Diagnoses of a spec: where a mistake is, what it is, what to do about it, and how that is shown."""
 
 from bbsd.errors.catalog import KINDS, describe
-from bbsd.errors.diagnosis import Diagnosis, Lines, Place, SpecError
+from bbsd.errors.correction import Correction, Edit, Lines
+from bbsd.errors.diagnosis import Diagnosis, Place, SpecError
 from bbsd.errors.inert import inert, inert_cell, inert_json
 from bbsd.errors.kind import DiagnosisKind, Severity
 from bbsd.errors.rendering import character_name, escape, render_json, render_text
@@ -10,8 +11,10 @@ from bbsd.errors.usage import UsageError
 
 __all__ = [
     "KINDS",
+    "Correction",
     "Diagnosis",
     "DiagnosisKind",
+    "Edit",
     "Lines",
     "Place",
     "Severity",

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from bbsd.errors.catalog import severity_of
+from bbsd.errors.correction import corrected_lines
 from bbsd.errors.kind import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+    from bbsd.errors.correction import Correction, Lines
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -24,25 +27,18 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """What is wrong at a place, and what to do about it where the message does not already say so."""
+    """What is wrong at a place, what to do about it where the message does not already say so, and the correction."""
 
     code: str
     message: str
     place: Place
     advice: str = ""
+    correction: Correction | None = None
 
     @property
     def severity(self) -> Severity:
         """The severity that the catalog gives the code's kind: a mistake or a warning."""
         return severity_of(self.code)
-
-
-class Lines(Protocol):
-    """The text that a diagnosis refers to, line by line."""
-
-    def line(self, number: int) -> str:
-        """Return the line of that number, counted from 1, without its break; '' if there is none."""
-        ...
 
 
 class SpecError(Exception):
@@ -67,6 +63,12 @@ class SpecError(Exception):
     def line(self, place: Place) -> str:
         """Return the line that a place is on; '' if there is none."""
         return self.others.get(place.file, self.source).line(place.line)
+
+    def corrected_lines(self, diagnosis: Diagnosis) -> list[str]:
+        """Return the lines that a diagnosis corrects as they should be; none if it has no correction."""
+        if diagnosis.correction is None:
+            return []
+        return corrected_lines(diagnosis.correction, self.others.get(diagnosis.place.file, self.source))
 
     def __str__(self) -> str:
         return "\n".join(

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import unicodedata
-from typing import TYPE_CHECKING
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
 from bbsd.errors.kind import Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
+    from bbsd.errors.correction import Correction
     from bbsd.errors.diagnosis import Diagnosis, Place
 
 TAB = "    "
+MOST_CORRECTED = 6
+"""Corrected lines that are shown."""
 BEFORE, SHOWN = 60, 160  # the characters of a long line that are shown before the place, and in all
-BOLD, RED, YELLOW, BLUE, PLAIN = "\x1b[1m", "\x1b[1;31m", "\x1b[1;33m", "\x1b[1;34m", "\x1b[0m"
+BOLD, RED, GREEN, YELLOW, BLUE = "\x1b[1m", "\x1b[1;31m", "\x1b[1;32m", "\x1b[1;33m", "\x1b[1;34m"
+PLAIN = "\x1b[0m"
 STYLES = {Severity.MISTAKE: RED, Severity.WARNING: YELLOW}
 
 
@@ -45,11 +50,14 @@ def _shown(text: str) -> str:
     return TAB.join(escape(part) for part in text.split("\t"))
 
 
-def render_text(diagnosis: Diagnosis, source_line: str, color: bool = False) -> str:
-    """Return a diagnosis as `file:line:column: error[code]: message`, source line, caret and advice.
+def render_text(
+    diagnosis: Diagnosis, source_line: str, color: bool = False, corrected: Sequence[str] = ()
+) -> str:
+    """Return a diagnosis as `file:line:column: error[code]: message`, source line, caret, corrected lines and advice.
 
     A warning has `warning[code]` instead. Without a source line (there is no file, say) only the message and the
-    advice are shown. The text ends without a line break.
+    advice are shown. Corrected lines stand beside `write`, or beside `maybe` where there are other readings. The text
+    ends without a line break.
     """
     place = diagnosis.place
     head = f"{escape(place.file)}:{place.line}:{place.column}: "
@@ -57,6 +65,8 @@ def render_text(diagnosis: Diagnosis, source_line: str, color: bool = False) -> 
     lines = [head + severity + ": " + _colored(escape(diagnosis.message), BOLD, color)]
     if source_line:
         lines += _excerpt(place, source_line, STYLES[diagnosis.severity], color)
+    if diagnosis.correction:
+        lines += _corrected(diagnosis.correction, corrected, color)
     if diagnosis.advice:
         lines.append(f"      {_colored('=', BLUE, color)} {escape(diagnosis.advice)}")
     return "\n".join(lines)
@@ -77,19 +87,30 @@ def _excerpt(place: Place, source_line: str, style: str, color: bool) -> list[st
     ]
 
 
+def _corrected(correction: Correction, lines: Sequence[str], color: bool) -> list[str]:
+    """Return lines as they should be; of many, or of a long one, only the beginning."""
+    shown = [*lines[:MOST_CORRECTED], *(["…"] if len(lines) > MOST_CORRECTED else [])]
+    margins = [f"{'write' if correction.is_certain else 'maybe':>5} |", *(len(shown) - 1) * ["      |"]]
+    return [
+        _colored(margin, GREEN, color) + " " + _shown(line[:SHOWN]) + ("…" if len(line) > SHOWN else "")
+        for margin, line in zip(margins, shown, strict=False)
+    ]
+
+
 def _colored(text: str, style: str, color: bool) -> str:
     return f"{style}{text}{PLAIN}" if color else text
 
 
-def render_json(diagnoses: Iterable[Diagnosis]) -> list[dict[str, str | int]]:
+def render_json(diagnoses: Iterable[Diagnosis]) -> list[dict[str, Any]]:
     """Return objects for JSON: file, line, column, end_column (exclusive), code, severity, message, advice.
 
-    Their severity is error or warning.
+    Their severity is error or warning. Where there is a correction, it has its edits (line, column, end_line,
+    end_column, exclusive, and text) and whether it is certain.
     """
     return [_json_object(diagnosis) for diagnosis in diagnoses]
 
 
-def _json_object(diagnosis: Diagnosis) -> dict[str, str | int]:
+def _json_object(diagnosis: Diagnosis) -> dict[str, Any]:
     place = diagnosis.place
     return {
         "file": place.file,
@@ -100,4 +121,9 @@ def _json_object(diagnosis: Diagnosis) -> dict[str, str | int]:
         "severity": diagnosis.severity.value,
         "message": diagnosis.message,
         "advice": diagnosis.advice,
+        **({"correction": _correction(diagnosis.correction)} if diagnosis.correction else {}),
     }
+
+
+def _correction(correction: Correction) -> dict[str, Any]:
+    return {"certain": correction.is_certain, "edits": [asdict(edit) for edit in correction.edits]}

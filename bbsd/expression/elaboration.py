@@ -12,10 +12,13 @@ from typing import TYPE_CHECKING
 from bbsd.errors import did_you_mean
 from bbsd.expression.aggregates import aggregate
 from bbsd.expression.checks import has_arguments, require_finite, require_kind, require_static_whole
+from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
 from bbsd.expression.operations import BY_WORD
 from bbsd.expression.scope import Definition, Unusable
+from bbsd.expression.syntax.mistakes import Rewriting
+from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import (
     Binary,
     Call,
@@ -232,6 +235,11 @@ def _uncallable(expr: Call, scope: Scope) -> Node:
     if binding is not None or name in scope.local:
         return scope.mistake("BB053", f"{name} is not a function", expr.span)
     definitions = [key for key, bound in scope.names.items() if isinstance(bound, Definition)]
+    if (other := other_name(name, [render(argument) for argument in expr.arguments])) is not None:
+        new, is_certain = other
+        message, advice = f'unknown function "{name}"', f"write {new}"
+        span = Span(expr.span.start, len(name))
+        return scope.mistake("BB053", message, span, advice, Rewriting(new, expr.span, is_certain))
     hint = did_you_mean(name, [*FUNCTIONS, *AGGREGATES, *DRAWS, "before", *definitions])
     return scope.mistake("BB053", f'unknown function "{name}"{hint}', Span(expr.span.start, len(name)))
 

@@ -11,6 +11,7 @@ from bbsd.expression.syntax.mistakes import WHOLE, Mistake, TooManyMistakesError
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
+    from bbsd.expression.syntax.mistakes import Rewriting
     from bbsd.expression.syntax.tree import Expr, Span
 
 MAX_MISTAKES = 200
@@ -86,9 +87,17 @@ class Findings:
     unseen: list[str] = field(default_factory=list)
     """Values of the world and of other robots that a behavior uses and cannot know."""
 
-    def report(self, path: Path, code: str, message: str, span: Span = WHOLE, advice: str = "") -> None:
+    def report(
+        self,
+        path: Path,
+        code: str,
+        message: str,
+        span: Span = WHOLE,
+        advice: str = "",
+        correction: Rewriting | None = None,
+    ) -> None:
         """Add a mistake. Raises TooManyMistakesError with the last of `MAX_MISTAKES`."""
-        self.mistakes[path, Mistake(code, message, span, advice)] = None
+        self.mistakes[path, Mistake(code, message, span, advice, correction)] = None
         if len(self.mistakes) >= MAX_MISTAKES:
             raise TooManyMistakesError
 
@@ -173,7 +182,9 @@ class Scope:
         """Return the value of a node if it is the same for the whole run, else None."""
         return float(value_of(node)) if node.literal else self.static(node)
 
-    def mistake(self, code: str, message: str, span: Span, advice: str = "") -> Node:
+    def mistake(
+        self, code: str, message: str, span: Span, advice: str = "", correction: Rewriting | None = None
+    ) -> Node:
         """Report a mistake and return the unknown value."""
-        self.findings.report(self.path, code, message, span, advice)
+        self.findings.report(self.path, code, message, span, advice, correction)
         return self.graph.unknown

@@ -79,8 +79,12 @@ class Lineage:
         self, path: DataPath, offset: int | None = None, on_key: bool = False, length: int = 1
     ) -> Place:
         """Return the place of a value in the first file that has it, as a document's `place`."""
+        return self.document(path).place(path, offset, on_key, length)
+
+    def document(self, path: DataPath) -> Document:
+        """Return the first file that has a value, the spec's own where none has."""
         holding = (document for document in self.documents if _holds(document.data, path))
-        return next(holding, self.documents[0]).place(path, offset, on_key, length)
+        return next(holding, self.documents[0])
 
     def error(self, diagnoses: Sequence[Diagnosis]) -> SpecError:
         """Return an error that shows diagnoses in the texts of the files."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors import Diagnosis, Severity, SpecError
 from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
+from bbsd.language.correcting import placed
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
 from bbsd.language.overrides import FILE as OVERRIDES
@@ -144,7 +145,8 @@ def _diagnoses(
         place = _place((path, mistake), files, data, overrides)
         starts = {_start(place), _start(files.place(existing(path, data)))}
         if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _has_merged(files)):
-            diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice))
+            correction = None if place.file == OVERRIDES else placed(mistake.correction, path, files)
+            diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
 
 

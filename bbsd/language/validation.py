@@ -9,9 +9,10 @@ from annotated_types import Ge, Le
 from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
+from bbsd.expression.foreign.translating import translated
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.vocabulary import WORDS
-from bbsd.language.field_types import kind_of
+from bbsd.language.field_types import kind_of, scalar_text
 from bbsd.language.goals import goal_mistake, is_block_of_costs, is_goal
 from bbsd.language.keys import blocks_with, field_at, fields_at
 from bbsd.language.models import Spec
@@ -111,7 +112,10 @@ def _uses(error: ErrorDetails, names: frozenset[str]) -> bool:
 def _mistake(error: ErrorDetails, data: Data) -> Mistake:
     path = path_of(error, data)
     match error["type"]:
-        case "expression" | "mistake":
+        case "expression":
+            mistake = cast("Mistake", error["ctx"]["mistake"])
+            return translated(scalar_text(error["input"]) or "", mistake, key_of(path))
+        case "mistake":
             return cast("Mistake", error["ctx"]["mistake"])
         case "bad_name":
             return Mistake(error["ctx"]["code"], error["msg"], KEY, error["ctx"]["advice"])
@@ -135,6 +139,11 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
         case "literal_error" if isinstance(error["input"], str):
             return _not_allowed("BB023", path, error)
     return _not_allowed("BB022", path, error)
+
+
+def key_of(path: Path) -> str:
+    """Return the key that a value's path ends with, "" for an item of a list."""
+    return path[-1] if path and isinstance(path[-1], str) else ""
 
 
 def _unexpected(path: Path) -> Mistake:

@@ -10,9 +10,9 @@ from bbsd.report.numbers import count
 from bbsd.report.size import size_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
-    from bbsd.errors import Diagnosis, Place
+    from bbsd.errors import Diagnosis, SpecError
     from bbsd.language.meaning import Meaning
 
 WORDS = {Severity.MISTAKE: "mistake", Severity.WARNING: "warning"}
@@ -20,11 +20,11 @@ WORDS = {Severity.MISTAKE: "mistake", Severity.WARNING: "warning"}
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """A spec's file, its diagnoses, the line that a place is on, and its meaning; None where it has mistakes."""
+    """A spec's file, its diagnoses, the texts that they refer to, and its meaning; None where it has mistakes."""
 
     file: str
     diagnoses: tuple[Diagnosis, ...]
-    line: Callable[[Place], str]
+    texts: SpecError
     meaning: Meaning | None
 
     def count(self, severity: Severity) -> int:
@@ -34,7 +34,11 @@ class Checked:
 
 def checked_text(checked: Checked, *, color: bool, strict: bool) -> str:
     """Return the diagnoses of a spec and a verdict; where warnings count as mistakes, a spec with some is not ok."""
-    diagnoses = [render_text(each, checked.line(each.place), color) for each in checked.diagnoses]
+    texts = checked.texts
+    diagnoses = [
+        render_text(each, texts.line(each.place), color, texts.corrected_lines(each))
+        for each in checked.diagnoses
+    ]
     return "\n\n".join([*diagnoses, _verdict(checked, strict=strict)])
 
 

@@ -13,7 +13,7 @@ from bbsd.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from bbsd.errors import Diagnosis, DiagnosisKind, Place
+    from bbsd.errors import Correction, Diagnosis, DiagnosisKind, Place
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 RULES = tuple(KINDS)
@@ -48,7 +48,27 @@ def _result(diagnosis: Diagnosis) -> dict[str, Any]:
         "level": diagnosis.severity.value,
         "message": {"text": message_text(diagnosis)},
         "locations": [{"physicalLocation": _location(diagnosis.place)}],
+        **({"fixes": [_fix(diagnosis.place.file, diagnosis.correction)]} if diagnosis.correction else {}),
     }
+
+
+def _fix(file: str, correction: Correction) -> dict[str, Any]:
+    """Return what to change; that it is one of several readings is said in its description."""
+    what = "What is meant" if correction.is_certain else "What may be meant"
+    replacements = [
+        {
+            "deletedRegion": {
+                "startLine": edit.line,
+                "startColumn": edit.column,
+                "endLine": edit.end_line,
+                "endColumn": edit.end_column,
+            },
+            "insertedContent": {"text": edit.text},
+        }
+        for edit in correction.edits
+    ]
+    change = {"artifactLocation": {"uri": _uri(file)}, "replacements": replacements}
+    return {"description": {"text": what}, "artifactChanges": [change]}
 
 
 def _location(place: Place) -> dict[str, Any]:

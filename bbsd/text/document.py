@@ -31,12 +31,16 @@ class Document:
         data = data_of(self.root) if self.root else {}
         return data if isinstance(data, dict) else {}
 
-    def holds(self, path: DataPath) -> bool:
-        """Say whether there is a value at a path of keys and indices."""
+    def node(self, path: DataPath) -> Node | None:
+        """Return the node at a path of keys and indices, None if there is none."""
         node: Node | None = self.root
         for segment in path:
             node = None if node is None else child(node, segment)
-        return node is not None
+        return node
+
+    def holds(self, path: DataPath) -> bool:
+        """Say whether there is a value at a path of keys and indices."""
+        return self.node(path) is not None
 
     def place(
         self, path: DataPath, offset: int | None = None, on_key: bool = False, length: int = 1
@@ -58,6 +62,28 @@ class Document:
         if offset is None or not isinstance(scalar, Scalar):
             return self._whole(marked)
         return self._inside(scalar, offset, length)
+
+    def stretch(
+        self, path: DataPath, offset: int | None = None, length: int = 0, on_key: bool = False
+    ) -> tuple[int, int] | None:
+        """Return where in the text characters of a value (or its key) stand, or all of it.
+
+        None where it is not written there: where an alias repeats it, it stands elsewhere.
+        """
+        if self.root is None:
+            return None
+        key, node, is_found = _find(self.root, path)
+        marked = key if on_key else node
+        if not is_found or isinstance(marked, Alias):
+            return None
+        if offset is None or not isinstance(marked, Scalar):
+            return marked.start, marked.end
+        offsets = source_offsets(self.source.text, marked)
+        if offset + length >= len(offsets):
+            return None if offset + length > len(offsets) else (offsets[offset], offsets[-1])
+        if length and not marked.style:
+            return offsets[offset], offsets[offset + length - 1] + 1
+        return offsets[offset], offsets[offset + length]
 
     def _whole(self, node: Node) -> Place:
         return self.source.place(node.start, node.end if isinstance(node, Scalar | Alias) else None)

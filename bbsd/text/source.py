@@ -7,8 +7,12 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from bbsd.errors import Diagnosis, Place, SpecError
+from bbsd.errors import Diagnosis, Edit, Place, SpecError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 MAX_BYTES = 1_000_000  # the specs that people write have a few kilobytes
 MOST_NAMED = 3
@@ -83,6 +87,20 @@ class Source:
         last = start + 1 if end is None else min(end, self.line_end(start))
         column = start - self.line_start(start) + 1
         return Place(self.file, self.line_number(start), column, max(1, last - start))
+
+    def edit(self, start: int, end: int, text: str) -> Edit:
+        """Return the edit that writes a text for the characters from `start` up to `end`."""
+        line, end_line = self.line_number(start), self.line_number(end)
+        return Edit(line, start - self.line_start(start) + 1, end_line, end - self.line_start(end) + 1, text)
+
+    def edited(self, edits: Iterable[Edit]) -> Source:
+        """Return the text after edits, none of which overlap."""
+        text = self.text
+        for edit in sorted(edits, reverse=True):
+            start = self._starts[edit.line - 1] + edit.column - 1
+            end = self._starts[edit.end_line - 1] + edit.end_column - 1
+            text = text[:start] + edit.text + text[end:]
+        return Source(self.file, text)
 
 
 def _content(file: str) -> bytes:

@@ -24,7 +24,10 @@ def show_mistake(error: Exception) -> int:
 
 def diagnoses_text(error: SpecError, *, color: bool) -> str:
     """Return mistakes with their source lines, a blank line between them; warnings are for `bbsd check`."""
-    return "\n\n".join(render_text(mistake, error.line(mistake.place), color) for mistake in error.mistakes)
+    return "\n\n".join(
+        render_text(mistake, error.line(mistake.place), color, error.corrected_lines(mistake))
+        for mistake in error.mistakes
+    )
 
 
 def _os_text(error: OSError) -> str:

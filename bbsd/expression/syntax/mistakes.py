@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from bbsd.expression.syntax.tree import Span
+
+if TYPE_CHECKING:
+    from bbsd.errors import Correction
 
 WHOLE = Span(0, 0)
 """The span of a whole value, however it is written."""
@@ -23,13 +27,27 @@ def characters_of_key(span: Span) -> Span | None:
 
 
 @dataclass(frozen=True, slots=True)
+class Rewriting:
+    """A text for a part of an expression, for a whole value (as YAML on one line), or for its key."""
+
+    text: str
+    span: Span = WHOLE
+    is_certain: bool = True
+    """Whether there is one reading of what was meant."""
+
+
+@dataclass(frozen=True, slots=True)
 class Mistake:
-    """A diagnosis relative to the text of one expression, to a whole value, or to its key."""
+    """A diagnosis relative to the text of one expression, to a whole value, or to its key.
+
+    Its correction is relative to the same, or already placed in the file.
+    """
 
     code: str
     message: str
     span: Span = WHOLE
     advice: str = ""
+    correction: Rewriting | Correction | None = None
 
 
 class ExpressionError(ValueError):

@@ -1,0 +1,75 @@
+"""Corrections: what to change in a file so that a mistake is gone, and the lines as they should be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+MOST_LINES = 40
+"""Lines of a file that a correction may change and still be shown."""
+
+
+class Lines(Protocol):
+    """The text that diagnoses and corrections refer to, line by line."""
+
+    def line(self, number: int) -> str:
+        """Return the line of that number, counted from 1, without its break; '' if there is none."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Edit:
+    """A text for a stretch of a file; lines and columns count from 1, in characters, and the end is exclusive.
+
+    An edit that inserts ends where it begins. `text` may have line breaks, as may the stretch.
+    """
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """The edits that correct a mistake, all in the file of its place; none of them overlap.
+
+    It is certain where there is one reading of what was meant; only then may a program write it.
+    """
+
+    edits: tuple[Edit, ...]
+    is_certain: bool = True
+
+
+def corrected_lines(correction: Correction, lines: Lines) -> list[str]:
+    """Return the lines that a correction changes as they should be, without those that it takes away."""
+    corrected = []
+    for first, last, edits in _blocks(correction.edits):
+        if last - first >= MOST_LINES:
+            return []
+        text, starts = "", {}
+        for number in range(first, last + 1):
+            starts[number] = len(text)
+            text += lines.line(number) + "\n"
+        for edit in reversed(edits):
+            start = starts[edit.line] + edit.column - 1
+            end = starts[edit.end_line] + edit.end_column - 1
+            text = text[:start] + edit.text + text[end:]
+        corrected += [line for line in text.split("\n") if line.strip()]
+    return corrected
+
+
+def _blocks(edits: Iterable[Edit]) -> Iterator[tuple[int, int, list[Edit]]]:
+    """Yield edits that share a line together, with their first and their last line."""
+    block: list[Edit] = []
+    for edit in sorted(edits):
+        if block and edit.line > max(other.end_line for other in block):
+            yield block[0].line, max(other.end_line for other in block), block
+            block = []
+        block.append(edit)
+    if block:
+        yield block[0].line, max(other.end_line for other in block), block

@@ -1,0 +1,87 @@
+"""From what to write for a part of a value to edits of the file in which it stands, each proven by reading it again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.errors import Correction
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting, characters_of_key
+from bbsd.language.validation import child
+from bbsd.text import read
+from bbsd.text.nodes import Scalar
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bbsd.errors import Edit
+    from bbsd.expression.scope import Path
+    from bbsd.language.lineage import Lineage
+    from bbsd.text import Data, Document
+
+MAX_CHARACTERS = 100_000
+"""Characters of a file up to which corrections are searched: each is proven by reading the file again."""
+
+
+def placed(correction: Rewriting | Correction | None, path: Path, files: Lineage) -> Correction | None:
+    """Return a correction with its edits; None where the file would not then say what is meant."""
+    if not isinstance(correction, Rewriting):
+        return correction
+    document = files.document(path)
+    if len(document.source.text) > MAX_CHARACTERS:
+        return None
+    edits = _edits(correction, path, document)
+    return None if edits is None else Correction((edits,), correction.is_certain)
+
+
+def _edits(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:
+    if rewriting.span in (KEY, WHOLE):
+        stretch = document.stretch(path, on_key=rewriting.span == KEY)
+    elif (span := characters_of_key(rewriting.span)) is not None:
+        stretch = document.stretch(path, span.start, span.length, on_key=True)
+    else:
+        return _within(rewriting, path, document)
+    if stretch is None:
+        return None
+    edit = document.source.edit(*stretch, rewriting.text)
+    return edit if _is_readable(document, [edit]) else None
+
+
+def _within(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:
+    """Return the edit of a part of an expression, of all of it in quotes where that is needed."""
+    start, length = rewriting.span
+    scalar, stretch = document.node(path), document.stretch(path, start, length)
+    if not isinstance(scalar, Scalar) or stretch is None:
+        return None
+    text = scalar.text[:start] + rewriting.text + scalar.text[start + length :]
+    wanted = text.split(" #")[0].rstrip()
+    edit = document.source.edit(*stretch, rewriting.text)
+    if _gives(document, edit, path, wanted):
+        return edit
+    if scalar.is_plain and '"' not in text and "\\" not in text and wanted == text.rstrip():
+        edit = document.source.edit(scalar.start, scalar.end, f'"{text}"')
+        return edit if _gives(document, edit, path, wanted) else None
+    return None
+
+
+def _gives(document: Document, edit: Edit, path: Path, text: str) -> bool:
+    """Return whether a file after an edit has a text at a path, and all else as before."""
+    after = read(document.source.edited([edit]))
+    node = after.node(path)
+    is_text = isinstance(node, Scalar) and " ".join(node.text.split()) == " ".join(text.split())
+    same = _without(after.data, path) == _without(document.data, path)
+    return is_text and same and len(after.diagnoses) <= len(document.diagnoses)
+
+
+def _is_readable(document: Document, edits: Iterable[Edit]) -> bool:
+    return len(read(document.source.edited(edits)).diagnoses) <= len(document.diagnoses)
+
+
+def _without(data: Data, path: Path) -> Data:
+    """Return data without what is at a path."""
+    if not path:
+        return None
+    if isinstance(data, dict):
+        return {key: _without(value, path[1:]) if key == path[0] else value for key, value in data.items()}
+    if isinstance(data, list):
+        return [_without(value, path[1:]) if at == path[0] else value for at, value in enumerate(data)]
+    return child(data, path[0])
