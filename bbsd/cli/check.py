@@ -1,7 +1,7 @@
 """`bbsd check`."""
 
 import sys
-from enum import StrEnum
+from enum import Enum, StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,12 +9,15 @@ import typer
 
 from bbsd.cli.options import spec_files
 from bbsd.cli.terminal.mistakes import MISTAKE
-from bbsd.cli.terminal.output import has_color, show, show_commands
+from bbsd.cli.terminal.output import diff_text, has_color, say, show, show_commands
 from bbsd.errors import KINDS, SpecError, describe, did_you_mean
+from bbsd.files import write_text_whole
 from bbsd.report.plain import json_text
 
 if TYPE_CHECKING:
+    from bbsd.language.fixing import Made
     from bbsd.report.checked import Checked
+    from bbsd.text import Source
 
 
 class MistakeFormat(StrEnum):
@@ -24,6 +27,14 @@ class MistakeFormat(StrEnum):
     JSON = "json"
     GITHUB = "github"
     SARIF = "sarif"
+
+
+class Fixing(Enum):
+    """What becomes of corrections: nothing, shown, written."""
+
+    NO = "no"
+    SHOWN = "shown"
+    WRITTEN = "written"
 
 
 def check(
@@ -39,6 +50,10 @@ def check(
     strict: Annotated[
         bool, typer.Option("--strict", help="Exit with code 2 if there are warnings too.")
     ] = False,
+    fix: Annotated[bool, typer.Option("--fix", help="Correct in the files what has one reading.")] = False,
+    diff: Annotated[
+        bool, typer.Option("--diff", help="With --fix: write nothing; print the corrections as a diff.")
+    ] = False,
     code: Annotated[
         str | None,
         typer.Option(
@@ -50,25 +65,30 @@ def check(
 ) -> None:
     """Report all mistakes in specs, each at its line and column, and what they probably do not mean to say.
 
-    Exits with code 2 if there are mistakes; warnings alone change the code with --strict.
+    Exits with code 2 if there are mistakes, with --fix if some remain; warnings alone change the code with --strict.
     """
+    if diff and not fix:
+        raise typer.BadParameter("--diff shows what --fix would change; give both")
     if code is not None:
         show(_description(code))
     elif specs:
-        _check(specs, form, strict=strict)
+        fixing = Fixing.NO if not fix else Fixing.SHOWN if diff else Fixing.WRITTEN
+        _check(specs, form, fixing, strict=strict)
     else:
         raise typer.BadParameter("give a SPEC, or --describe CODE")
 
 
-def _check(specs: list[Path], form: MistakeFormat, *, strict: bool) -> None:
+def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bool) -> None:
     from bbsd.report.checked import checked_plain, checked_text
 
-    checked = [_checked(spec) for spec in specs]
+    checked = [_checked(spec, fixing) for spec in specs]
     diagnoses = [diagnosis for each in checked for diagnosis in each.diagnoses]
     match form:
         case MistakeFormat.TEXT:
             color = has_color(sys.stdout)
-            show("\n".join(checked_text(each, color=color, strict=strict) for each in checked))
+            text = "\n".join(checked_text(each, color=color, strict=strict) for each in checked)
+            # Beside a diff, which programs read, what is said of the specs is for people.
+            (say if fixing is Fixing.SHOWN else show)(text)
         case MistakeFormat.JSON:
             show(json_text(checked_plain(checked)))
         case MistakeFormat.GITHUB:
@@ -83,15 +103,40 @@ def _check(specs: list[Path], form: MistakeFormat, *, strict: bool) -> None:
         raise typer.Exit(MISTAKE)
 
 
-def _checked(spec: Path) -> "Checked":
+def _checked(spec: Path, fixing: Fixing) -> "Checked":
     from bbsd.api.specs import load
+    from bbsd.language.loading import load as load_source
     from bbsd.report.checked import Checked
 
+    made: tuple[Made, ...] = ()
     try:
-        loaded = load(spec)
+        if fixing is Fixing.NO:
+            loaded = load(spec)
+        else:
+            source, made = _fixed(spec, fixing)
+            loaded = load_source(source)
     except SpecError as error:
-        return Checked(str(spec), error.diagnoses, error, None)
-    return Checked(str(spec), loaded.warnings, loaded.lineage.error(()), loaded.meaning)
+        return Checked(str(spec), error.diagnoses, error, None, made)
+    return Checked(str(spec), loaded.warnings, loaded.lineage.error(()), loaded.meaning, made)
+
+
+def _fixed(spec: Path, fixing: Fixing) -> "tuple[Source, tuple[Made, ...]]":
+    """Return a spec's text after its corrections, and these; write it, or show how it differs."""
+    from bbsd.language.fixing import fixed
+    from bbsd.text import Source
+    from bbsd.text.source import BYTE_ORDER_MARK
+
+    source = Source.read(spec)
+    result = fixed(source)
+    if result.source.text == source.text:
+        return source, ()
+    if fixing is Fixing.SHOWN:
+        show(diff_text(source.file, source.text, result.source.text, "corrected"))
+    else:
+        has_mark = spec.read_bytes().startswith(BYTE_ORDER_MARK.encode())
+        text = BYTE_ORDER_MARK * has_mark + result.source.text
+        write_text_whole(spec, text, through_links=True)
+    return result.source, result.made
 
 
 def _description(code: str) -> str:

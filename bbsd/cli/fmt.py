@@ -1,6 +1,5 @@
 """`bbsd fmt`."""
 
-from difflib import unified_diff
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,7 +7,7 @@ import typer
 
 from bbsd.cli.options import spec_files
 from bbsd.cli.terminal.mistakes import show_mistake
-from bbsd.cli.terminal.output import say, show
+from bbsd.cli.terminal.output import diff_text, say, show
 from bbsd.errors import SpecError, escape
 from bbsd.files import write_text_whole
 
@@ -54,7 +53,7 @@ def _format(spec: Path, *, check: bool, diff: bool) -> int:
     if formatted == source.text:
         return 0
     if diff:
-        show(_diff(source, formatted))
+        show(diff_text(source.file, source.text, formatted, "formatted"))
     if check:
         say(f"{escape(str(spec))} is not formatted")
     elif not diff:
@@ -71,10 +70,3 @@ def _formatted_text(source: "Source") -> str:
     if document.diagnoses:
         raise SpecError(document.diagnoses, source)
     return in_house_style(document)
-
-
-def _diff(source: "Source", formatted: str) -> str:
-    lines = unified_diff(
-        source.text.splitlines(), formatted.splitlines(), source.file, f"{source.file} formatted", lineterm=""
-    )
-    return "\n".join(escape(line) for line in lines)

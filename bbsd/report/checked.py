@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from bbsd.errors import Diagnosis, SpecError
+    from bbsd.language.fixing import Made
     from bbsd.language.meaning import Meaning
 
 WORDS = {Severity.MISTAKE: "mistake", Severity.WARNING: "warning"}
@@ -26,6 +27,8 @@ class Checked:
     diagnoses: tuple[Diagnosis, ...]
     texts: SpecError
     meaning: Meaning | None
+    made: tuple[Made, ...] = ()
+    """Corrections that were made before."""
 
     def count(self, severity: Severity) -> int:
         """Return how many diagnoses are that severe."""
@@ -39,14 +42,24 @@ def checked_text(checked: Checked, *, color: bool, strict: bool) -> str:
         render_text(each, texts.line(each.place), color, texts.corrected_lines(each))
         for each in checked.diagnoses
     ]
-    return "\n\n".join([*diagnoses, _verdict(checked, strict=strict)])
+    made = [_made_text(checked.file, each) for each in checked.made]
+    return "\n\n".join([*made, *diagnoses, _verdict(checked, strict=strict)])
+
+
+def _made_text(file: str, made: Made) -> str:
+    """Return what was corrected, with its lines as they were and as they are."""
+    lines = [("-", line) for line in made.before] + [("+", line) for line in made.after]
+    shown = [f"    {sign} | {escape(line)}" for sign, line in lines if line.strip()]
+    place = f"{escape(file)}:{made.diagnosis.place.line}"
+    return "\n".join([f"{place}: corrected[{made.diagnosis.code}]: {escape(made.diagnosis.message)}", *shown])
 
 
 def _verdict(checked: Checked, *, strict: bool) -> str:
     found = count_text(checked.diagnoses)
+    corrected = [f"{len(checked.made)} corrected"] if checked.made else []
     if checked.meaning is None:
-        return f"{found} in {escape(checked.file)}"
-    words = [*([] if found and strict else ["ok"]), *([found] if found else [])]
+        return f"{', '.join([found, *corrected])} in {escape(checked.file)}"
+    words = [*([] if found and strict else ["ok"]), *([found] if found else []), *corrected]
     return f"{escape(checked.file)}: {', '.join(words)} ({size_text(checked.meaning)})"
 
 
@@ -70,4 +83,5 @@ def _plain(checked: Checked) -> dict[str, Any]:
         "file": checked.file,
         "mistakes": checked.count(Severity.MISTAKE),
         "warnings": checked.count(Severity.WARNING),
+        "corrected": len(checked.made),
     }

@@ -94,12 +94,14 @@ class Source:
         return Edit(line, start - self.line_start(start) + 1, end_line, end - self.line_start(end) + 1, text)
 
     def edited(self, edits: Iterable[Edit]) -> Source:
-        """Return the text after edits, none of which overlap."""
+        """Return the text after edits, none of which overlap; lines that they add end as the text's first line does."""
         text = self.text
+        first_break = LINE_BREAK.search(text)
         for edit in sorted(edits, reverse=True):
             start = self._starts[edit.line - 1] + edit.column - 1
             end = self._starts[edit.end_line - 1] + edit.end_column - 1
-            text = text[:start] + edit.text + text[end:]
+            new = edit.text.replace("\n", first_break[0]) if first_break else edit.text
+            text = text[:start] + new + text[end:]
         return Source(self.file, text)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO, cast
 
 from bbsd.cli.terminal.streams import Raw, Steady
+from bbsd.errors import escape
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -36,6 +37,14 @@ def leave_now(code: int) -> NoReturn:
         with suppress(OSError):
             stream.flush()
     os._exit(code)
+
+
+def diff_text(file: str, before: str, after: str, what: str) -> str:
+    """Return how a file differs from its text after a change, as a unified diff; `what` says what the change is."""
+    from difflib import unified_diff
+
+    lines = unified_diff(before.splitlines(), after.splitlines(), file, f"{file} {what}", lineterm="")
+    return "\n".join(escape(line) for line in lines)
 
 
 def show_table(table: "RenderableType") -> None:

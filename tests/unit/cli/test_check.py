@@ -62,3 +62,48 @@ def test_other_commands_say_in_a_line_that_there_are_warnings(capsys):
     assert "warning" not in out
     assert run("evaluate", RIGHT, "--fill", "random", "--agents", "2", "--episodes", "2", "--json") == 0
     assert "warning" not in capsys.readouterr().err
+
+
+def wrong(folder):
+    """A spec with a mistake that has one reading, and one that has two."""
+    path = folder / "wrong.yaml"
+    text = (SPECS / "valid" / "BB050_no_else.yaml").read_text()
+    (line,) = (line for line in text.splitlines() if line.strip().startswith("near:"))
+    path.write_text(text.replace(line, "  near: 1 if tilted && true else 0  # both"))
+    return path
+
+
+def test_what_has_one_reading_is_fixed_in_the_file(tmp_path, capsys):
+    path = wrong(tmp_path)
+    before = path.read_text()
+    assert run("check", "--fix", path) == 0
+    assert path.read_text() == before.replace("&&", "and")
+    told = capsys.readouterr().out
+    assert "corrected[BB050]" in told
+    assert "    + |   near: 1 if tilted and true else 0  # both" in told
+    assert "ok, 1 corrected" in told
+    assert run("check", "--fix", path) == 0
+    assert "corrected" not in capsys.readouterr().out
+
+
+def test_corrections_can_be_shown_only(tmp_path, capsys):
+    path = wrong(tmp_path)
+    before = path.read_text()
+    assert run("check", "--fix", "--diff", path) == 0
+    assert path.read_text() == before
+    told = capsys.readouterr()
+    assert (
+        "-  near: 1 if tilted && true else 0  # both\n+  near: 1 if tilted and true else 0  # both"
+        in told.out
+    )
+    assert run("check", "--diff", path) == 2
+
+
+def test_mistakes_that_remain_exit_with_2(tmp_path, capsys):
+    path = wrong(tmp_path)
+    path.write_text(path.read_text().replace("&& true else 0", "&& true"))
+    assert run("check", "--fix", path) == 2
+    assert "&&" in path.read_text()
+    assert "maybe |   near: 1 if tilted and true else 0  # both" in capsys.readouterr().out
+    assert run("check", "--fix", "--format", "json", path) == 2
+    assert json.loads(capsys.readouterr().out)["specs"][0]["corrected"] == 0
