@@ -7,15 +7,25 @@ from functools import cache, partial, reduce
 from operator import add
 from typing import TYPE_CHECKING
 
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.tree import Name
 from bbsd.kernel.functions import divide
+from bbsd.language.field_types import Expression
 from tests.interpreter.cells import labels, partitions, sensed
 from tests.interpreter.draws import draws_of_episode
-from tests.interpreter.expressions import Definition, Moment, Scope, Value, evaluate
+from tests.interpreter.expressions import (
+    Definition,
+    Moment,
+    Scope,
+    Value,
+    evaluate,
+    taken_apart,
+    with_element,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from bbsd.language.field_types import Expression
     from bbsd.language.models import Spec
     from tests.interpreter.made_up_outside import Given, MadeUpWorld
 
@@ -199,10 +209,24 @@ def act(episode: Episode, design: Design, snapshot: Moment, controlling: Sequenc
             name, behavior = list(episode.spec.behaviors.items())[index]
             number = decision(episode, design, snapshot, robot, index)
             action, settings = list(behavior.actions.items())[number - 1]
-            for state, expression in settings.items():
-                place = f"behaviors.{name}.actions.{action}.{state}"
-                assigned[state, robot] = episode.evaluate(place, expression, robot, snapshot)
+            for key, expression in settings.items():
+                place = f"behaviors.{name}.actions.{action}.{key}"
+                value = episode.evaluate(place, expression, robot, snapshot)
+                state, at = key_of(episode, place, key, robot, snapshot)
+                held = assigned.get((state, robot), snapshot.value(state, robot))
+                assigned[state, robot] = with_element(held, at, value)
     return changed(snapshot, assigned, before=snapshot)
+
+
+def key_of(episode: Episode, place: str, key: str, robot: int, snapshot: Moment) -> tuple[str, list[Value]]:
+    """The state that a key of an action names, and its indices; what the k-th draws stands at the place and [k]."""
+    of, indices = taken_apart(parse(key))
+    assert isinstance(of, Name)
+    at = [
+        episode.evaluate(f"{place}[{number}]", Expression("", index), robot, snapshot)
+        for number, index in enumerate(indices)
+    ]
+    return of.name, at
 
 
 def outside(episode: Episode, acted: Moment) -> tuple[Given, bool]:

@@ -94,8 +94,8 @@ def evaluate(expr: Expr, scope: Scope) -> Value:
         case Conditional(condition=condition, then=then, otherwise=otherwise):
             arms = evaluate(otherwise, scope), evaluate(then, scope)
             return arms[evaluate(condition, scope)]
-        case Index(of=of, index=index):
-            return indexed(of, evaluate(index, scope), scope)
+        case Index():
+            return indexed(expr, scope)
         case Call():
             return called(expr, scope)
     raise AssertionError(expr)
@@ -125,12 +125,36 @@ def named(name: str, scope: Scope) -> Value:
     return scope.moment.value(name, scope.robot)
 
 
-def indexed(of: Expr, index: Value, scope: Scope) -> Value:
-    """An element of a list; or, of a value that is not a list, what robot `index` has for it."""
+def indexed(expr: Index, scope: Scope) -> Value:
+    """An element of a list; with one index more than there are lists, of what the robot has that the first names."""
+    of, indices = taken_apart(expr)
+    at = [evaluate(index, scope) for index in indices]
     value = evaluate(of, scope)
-    if isinstance(value, list):
-        return value[functions.clamp_index(index, len(value) - 1)]
-    return evaluate(of, replace(scope, robot=functions.clamp_index(index, scope.robots - 1)))
+    if len(at) > depth(value):
+        value = evaluate(of, replace(scope, robot=functions.clamp_index(at.pop(0), scope.robots - 1)))
+    for index in at:
+        value = value[functions.clamp_index(index, len(value) - 1)]
+    return value
+
+
+def taken_apart(expr: Expr) -> tuple[Expr, list[Expr]]:
+    """What is indexed, and the indices from left to right."""
+    if not isinstance(expr, Index):
+        return expr, []
+    of, indices = taken_apart(expr.of)
+    return of, [*indices, expr.index]
+
+
+def depth(value: Value) -> int:
+    return 1 + depth(value[0]) if isinstance(value, list) else 0
+
+
+def with_element(items: Value, at: list[Value], value: Value) -> Value:
+    """A list in which the element at some indices, each brought into its range, is another one."""
+    if not at:
+        return value
+    place = functions.clamp_index(at[0], len(items) - 1)
+    return [*items[:place], with_element(items[place], at[1:], value), *items[place + 1 :]]
 
 
 def called(call: Call, scope: Scope) -> Value:

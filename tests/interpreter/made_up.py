@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from tests.interpreter.made_up_behaviors import Senses, behavior, structure
-from tests.interpreter.made_up_expressions import Draw, Reach, number, truth, whole
+from tests.interpreter.made_up_expressions import Draw, Reach, a_list, number, truth, whole
 from tests.interpreter.made_up_partitions import TRUTHS, partition
 
 SHOWN = {
@@ -18,6 +18,10 @@ SHOWN = {
     "shown_flag": "1 if flag else 2",
     "shown_amount": "amount",
     "shown_alarm": "1 if alarm else 2",
+    "shown_calls": "sum(calls)",
+    "shown_bins": "bins[0] - bins[1] * bins[2]",
+    "shown_marks": "sum(sum(1 if mark else 3 for mark in row) for row in marks)",
+    "shown_bins_before": "mean(before(bins))",
     "shown_level": "level",
     "shown_eyes": "sum(eyes)",
     "shown_before": "before(level - x)",
@@ -69,6 +73,8 @@ def everything(team: Reach, own: Reach) -> Reach:
         own,
         numbers=tuple(dict.fromkeys(own.numbers + team.numbers)),
         truths=tuple(dict.fromkeys(own.truths + team.truths)),
+        lists=tuple(dict.fromkeys(own.lists + team.lists)),
+        lists_of_robots=team.lists_of_robots,
         numbers_of_robots=team.numbers_of_robots,
         truths_of_robots=team.truths_of_robots,
         team=True,
@@ -110,7 +116,11 @@ def some_constants(draw: Draw, robots: int) -> tuple[Block, Reach]:
 def some_values(draw: Draw, known: Reach) -> tuple[Block, Reach, Reach]:
     """World and state; what the team's expressions can use of them, and what one robot's."""
     starting = replace(known, draws=True)
-    world = {"amount": number(draw, starting, 2), "alarm": truth(draw, starting, 2)}
+    world = {
+        "amount": number(draw, starting, 2),
+        "alarm": truth(draw, starting, 2),
+        "calls": a_list(draw, starting, 2),
+    }
     late = replace(starting, numbers=(*known.numbers, "amount"))
     own_late = replace(late, numbers=(*late.numbers, "x"), wholes=(*known.wholes, "robot"))
     state = {
@@ -118,6 +128,8 @@ def some_values(draw: Draw, known: Reach) -> tuple[Block, Reach, Reach]:
         "y": number(draw, replace(own_late, team=True, numbers_of_robots=("x",)), 2),
         "place": whole(draw, replace(own_late, draws=True), 2),
         "flag": truth(draw, own_late, 2),
+        "bins": a_list(draw, own_late, 3),
+        "marks": a_list(draw, own_late, 2, 2),
     }
     team = replace(
         known,
@@ -126,6 +138,8 @@ def some_values(draw: Draw, known: Reach) -> tuple[Block, Reach, Reach]:
         wholes=(*known.wholes, "robots", "steps"),
         numbers_of_robots=("x", "y", "place"),
         truths_of_robots=("flag",),
+        lists=(*known.lists, ("calls", 2)),
+        lists_of_robots=(("bins", 3),),
         team=True,
     )
     own = replace(
@@ -133,6 +147,8 @@ def some_values(draw: Draw, known: Reach) -> tuple[Block, Reach, Reach]:
         numbers=(*known.numbers, "x", "y"),
         truths=("flag",),
         wholes=(*known.wholes, "place", "robot"),
+        lists=(*known.lists, ("bins", 3)),
+        truth_tables=(("marks", 2, 2),),
     )
     return {"world": shuffled(draw, world), "state": shuffled(draw, state)}, team, own
 
@@ -179,6 +195,9 @@ def some_dynamics(draw: Draw, starts: Block, team: Reach, own: Reach) -> Block:
         "y": lambda: number(draw, own),
         "place": lambda: whole(draw, own),
         "flag": lambda: truth(draw, own),
+        "calls": lambda: a_list(draw, team, 2),
+        "bins": lambda: a_list(draw, own, 3),
+        "marks": lambda: a_list(draw, own, 2, 2),
     }
     chosen = draw(st.lists(st.sampled_from(sorted(ways)), unique=True, max_size=4))
     return {name: ways[name]() for name in chosen}

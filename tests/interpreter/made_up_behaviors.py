@@ -9,7 +9,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from tests.interpreter.made_up_expressions import Draw, Reach, number, truth, whole
+from tests.interpreter.made_up_expressions import Draw, Reach, a_list, a_row, index, number, truth, whole
 from tests.interpreter.made_up_partitions import Partition, partition
 
 TELLING = (
@@ -19,6 +19,8 @@ TELLING = (
     "before(warm) != warm",
     "y == before(y)",
     "sum(eyes) > sum(before(eyes))",
+    "before(bins)[1] != bins[1]",
+    "before(marks[0][1])",
 )
 
 Cells = dict[str, dict[str, frozenset[int]]]
@@ -79,7 +81,26 @@ def assignments(draw: Draw, reach: Reach) -> dict[str, str]:
     reach = replace(reach, draws=True)
     ways = {"x": number, "y": number, "place": whole, "flag": truth}
     chosen = draw(st.lists(st.sampled_from(sorted(ways)), unique=True, min_size=1, max_size=3))
-    return {name: ways[name](draw, reach, 2) for name in chosen}
+    return {name: ways[name](draw, reach, 2) for name in chosen} | of_lists(draw, reach)
+
+
+def of_lists(draw: Draw, reach: Reach) -> dict[str, str]:
+    """What an action sets of lists: all of one, a row, or elements, of which the later one may be the same."""
+    found = dict[str, str]()
+    match draw(st.sampled_from(["none", "all", "one", "two"])):
+        case "all":
+            found["bins"] = a_list(draw, reach, 3)
+        case "one" | "two" as how_many:
+            for _ in range(1 + (how_many == "two")):
+                found[f"bins[{index(draw, reach, 2, 3)}]"] = number(draw, reach, 2)
+    match draw(st.sampled_from(["none", "all", "row", "one"])):
+        case "all":
+            found["marks"] = a_list(draw, reach, 2, 2)
+        case "row":
+            found[f"marks[{index(draw, reach, 2, 2)}]"] = a_row(draw, reach, 2)
+        case "one":
+            found[f"marks[{index(draw, reach, 2, 2)}][{index(draw, reach, 2, 2)}]"] = truth(draw, reach, 2)
+    return found
 
 
 def rules(draw: Draw, cells: Cells, decisions: list[str]) -> list[dict[str, Any]]:

@@ -37,6 +37,8 @@ class Reach:
     definitions: tuple[tuple[str, int], ...] = ()
     team: bool = False
     others: bool = False
+    truth_tables: tuple[tuple[str, int, int], ...] = ()
+    lists_of_robots: tuple[tuple[str, int], ...] = ()
     draws: bool = False
     before: bool = False
     bound: int = 0
@@ -83,6 +85,8 @@ def numbers(reach: Reach, depth: int) -> list[Writer]:
         ways += [element_of_table, over_rows]
     if reach.team:
         ways += [of_robot(reach.numbers_of_robots), over_team, over_team, over_team, first_best]
+    if reach.lists_of_robots:
+        ways += [element_of_robot, element_of_robot]
     if reach.definitions:
         ways += [defined, defined]
     if reach.before:
@@ -100,6 +104,8 @@ def truths(reach: Reach, depth: int) -> list[Writer]:
     ways = [leaf, comparison, comparison, chain, joined, denied, conditional(truth)]
     if reach.lists:
         ways += [any_of_list]
+    if reach.truth_tables:
+        ways += [element_of_truths, element_of_truths]
     if reach.team and reach.truths_of_robots:
         ways += [of_robot(reach.truths_of_robots)]
     if reach.before:
@@ -186,6 +192,32 @@ def over_list(draw: Draw, reach: Reach, depth: int) -> str:
 def element_of_table(draw: Draw, reach: Reach, depth: int) -> str:
     name, rows, columns = draw(st.sampled_from(reach.tables))
     return f"{name}[{index(draw, reach, depth, rows)}][{index(draw, reach, depth, columns)}]"
+
+
+def element_of_truths(draw: Draw, reach: Reach, depth: int) -> str:
+    name, rows, columns = draw(st.sampled_from(reach.truth_tables))
+    return f"{name}[{index(draw, reach, depth, rows)}][{index(draw, reach, depth, columns)}]"
+
+
+def element_of_robot(draw: Draw, reach: Reach, depth: int) -> str:
+    name, length = draw(st.sampled_from(reach.lists_of_robots))
+    return f"{name}[{index(draw, reach, depth, reach.robots)}][{index(draw, reach, depth, length)}]"
+
+
+def a_list(draw: Draw, reach: Reach, length: int, columns: int = 0) -> str:
+    """A list of numbers, or with columns of lists of truths: its elements one by one, or by a generator."""
+    if draw(st.booleans()):
+        rows = [a_row(draw, reach, columns) if columns else number(draw, reach, 2) for _ in range(length)]
+        return f"list({', '.join(rows)})"
+    inner, (each,) = reach.binding(wholes=1)
+    row = a_row(draw, inner, columns) if columns else number(draw, inner, 2)
+    return f"list({row} for {each} in range({length}))"
+
+
+def a_row(draw: Draw, reach: Reach, columns: int) -> str:
+    """A list of truths."""
+    inner, (each,) = reach.binding(wholes=1)
+    return f"list({truth(draw, inner, 2)} for {each} in range({columns}))"
 
 
 def over_rows(draw: Draw, reach: Reach, depth: int) -> str:
