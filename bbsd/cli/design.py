@@ -72,6 +72,16 @@ def design(
         ),
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a design that was stopped.")] = False,
+    start: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="DESIGN",
+            help="Begin with a known design, a file or the folder of a run: it is among the first candidates. "
+            "Repeatable.",
+            show_default=False,
+            autocompletion=spec_files,
+        ),
+    ] = None,
     lanes: Lanes = 40,
     budget: Annotated[
         str | None,
@@ -214,6 +224,7 @@ def design(
                     progress=listener,
                     overdue=leave,
                     engine=workers,
+                    start=start or (),
                     **opening,
                 )
 

@@ -11,10 +11,11 @@ from bbsd.language.loading import load
 from bbsd.text import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from bbsd.environments.opening import Opened
     from bbsd.language.loading import Loaded
+    from bbsd.runs.beginnings import Beginning
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +35,8 @@ class Origin:
     """The method, where the command is a rival's."""
     budgets: tuple[int, ...] = ()
     """The budgets of the design itself, where the command is a rival's."""
+    beginnings: tuple[Beginning, ...] = ()
+    """The known designs that it begins with."""
 
     def plain(self, problem: Problem) -> dict[str, Any]:
         """Return all that a problem is made of as plain data, from which `remade` makes it again.
@@ -54,10 +57,12 @@ class Origin:
         }
 
 
-def origin_of(loaded: Loaded, opened: Opened | None = None) -> Origin:
+def origin_of(loaded: Loaded, opened: Opened | None = None, beginnings: Sequence[Beginning] = ()) -> Origin:
     """Return what commands of a loaded spec, and of its environment where it has one, are made of."""
     text = loaded.lineage.flat.source.text
-    return Origin(loaded.source.file, text, loaded.overrides, loaded.meaning.seed, opened)
+    return Origin(
+        loaded.source.file, text, loaded.overrides, loaded.meaning.seed, opened, beginnings=tuple(beginnings)
+    )
 
 
 def remade(plain: Mapping[str, Any]) -> tuple[Loaded, Problem]:

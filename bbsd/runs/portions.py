@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bbsd.engines.units import Result
+from bbsd.runs.beginnings import beginning_of_plain, solver_starts
 from bbsd.runs.command import Command
 from bbsd.runs.origin import remade
 from bbsd.runs.rival_command import rival_command
@@ -73,6 +74,7 @@ def order_of(command: Command, run: int) -> dict[str, Any]:
         "rival": origin.rival,
         "seed": command.seed,
         "runs": command.n_runs,
+        "starts": [each.plain() for each in origin.beginnings],
         "budgets": list(origin.budgets if origin.rival else command.budgets),
         "identity": command.who.plain(),
         "run": run,
@@ -164,8 +166,9 @@ def _command(what: str) -> Command:
     order: Mapping[str, Any] = json.loads(what)
     loaded, problem = remade(order["problem"])
     seed, runs, budgets = order["seed"], order["runs"], tuple(order["budgets"])
-    who = identity(loaded, seed, runs, order["identity"].get(ENVIRONMENT))
-    command = Command(problem, settings_of(problem.meaning), seed, runs, Folder(Path()), who, budgets)
+    starts = solver_starts(problem, [beginning_of_plain(each) for each in order["starts"]], seed)
+    who = identity(loaded, seed, runs, order["identity"].get(ENVIRONMENT), starts)
+    command = Command(problem, settings_of(problem.meaning, starts), seed, runs, Folder(Path()), who, budgets)
     if order["rival"]:
         command = rival_command(command, order["rival"], loaded)
     if command.who.plain() != order["identity"]:

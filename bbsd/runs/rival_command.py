@@ -56,7 +56,7 @@ def _paper(loaded: Loaded, command: Command, episodes: int) -> tuple[Problem, Se
     if meaning is None:
         raise RuntimeError("a spec without mistakes has some with another method")
     problem = command.problem.with_meaning(meaning)
-    return problem, settings_of(problem.meaning)
+    return problem, settings_of(problem.meaning, command.settings.starts)
 
 
 def paper_episodes(settings: Settings) -> int:

@@ -21,7 +21,7 @@ from bbsd.solver.arena import Arena
 from bbsd.solver.methods.q_learning import TooManyJointCells
 from bbsd.solver.methods.registry import METHODS
 from bbsd.solver.search import ROUNDS, final_race, search_budget
-from bbsd.solver.space import Designs
+from bbsd.solver.space import Designs, Space
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -71,7 +71,9 @@ class Course:
     @cached_property
     def arena(self) -> Arena:
         """Where designs run their episodes."""
-        return Arena(self.problem, self.settings.coevolution.generations)
+        generation, starts = self.settings.coevolution.generations, self.settings.starts
+        drawn = None if starts is None else starts.drawn(Space(self.problem), self.key)
+        return Arena(self.problem, generation, drawn)
 
     @property
     def method(self) -> Method:
@@ -144,8 +146,10 @@ class Course:
     def _raced(
         self, state: Searching, answer: Architecture | None, episodes: int, allowance: int
     ) -> tuple[Searching, Architecture, Line]:
-        """Let the former answer, the best so far and the champions race, and measure the winner."""
+        """Let the former answer, the best so far, known designs and the champions race, and measure the winner."""
         first = state.best if answer is None else self.arena.space.designs([answer]).joined(state.best)
+        if self.settings.starts is not None:
+            first = first.joined(self.settings.starts.complete())
         finish = final_race(state.search, self.arena, self.key, episodes, first)
         stream = fold(fold(self.key, MEASURED), word_of(state.spent))
         state = replace(state, other=state.other + finish.spent)

@@ -9,6 +9,7 @@ import numpy as np
 from bbsd.architecture import Architecture, behavior_keys, joint_space
 from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.race import race
+from bbsd.solver.space import Space
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,15 +29,21 @@ def answer(state: State, problem: Problem, settings: Settings, key: int) -> Arch
 
 
 def candidates(state: State, problem: Problem, settings: Settings) -> list[Architecture]:
-    """Return the best individuals under every meme, then the champions; of those that behave alike only the first."""
+    """Return the best individuals under every meme, then the champions, and the known designs of the beginning.
+
+    Of those that behave alike there is only the first.
+    """
     best = tuple(
         pool[int(np.argmax(state.fitness[index, : len(pool)]))] for index, pool in enumerate(state.pools)
     )
     fittest_first = state.culture.memes[np.argsort(-state.culture.fitness, kind="stable")]
     composed = [Architecture(best, meme) for meme in fittest_first]
-    return distinct([*composed, *state.champions.architectures(problem)], problem)[
+    entrants = distinct([*composed, *state.champions.architectures(problem)], problem)[
         : settings.answer.candidates
     ]
+    if settings.starts is None:
+        return entrants
+    return distinct([*entrants, *Space(problem).architectures(settings.starts.complete())], problem)
 
 
 def distinct(architectures: Iterable[Architecture], problem: Problem) -> list[Architecture]:

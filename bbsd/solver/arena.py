@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -32,6 +32,17 @@ class Arena:
 
     problem: Problem
     generation: int
+    starts: Designs | None = None
+    """Known designs with which searches begin."""
+
+    @cached_property
+    def afresh(self) -> Arena:
+        """The same for a search that begins with nothing known, so that it may come to something else."""
+        if self.starts is None:
+            return self
+        other = replace(self, starts=None)
+        vars(other).update({name: value for name, value in vars(self).items() if name != "starts"})
+        return other
 
     @cached_property
     def space(self) -> Space:

@@ -3,47 +3,30 @@
 from __future__ import annotations
 
 import time
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.api.given.arguments import Assignments, checked, optional, path, require_none, whole
 from bbsd.api.given.environments import opened_environment, problem_of
-from bbsd.api.making.interrupting import interruptible
+from bbsd.api.making.carrying import Kept, Means, carried_out, why_fickle
 from bbsd.api.making.place import Wanted, former_of, place_of, require_former
 from bbsd.api.making.rivals import known_rivals
-from bbsd.api.results import (
-    AnyProgress,
-    Designed,
-    Interrupted,
-    NoBudget,
-    NothingToDesign,
-    Progress,
-    SearchProgress,
-)
+from bbsd.api.making.starting import beginnings_of, resumed_beginnings, starts
+from bbsd.api.results import AnyProgress, Designed, Interrupted, NoBudget, NothingToDesign
 from bbsd.api.specs import AnySpec, loaded_from
-from bbsd.architecture import designed_text, require_writable, tidy_tables
+from bbsd.architecture import require_writable
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
-from bbsd.evaluation.visits import visits_after_design
 from bbsd.language.design import LEAST_BUDGET
 from bbsd.language.loading import loaded_again
-from bbsd.runs.answers import complete_runs
+from bbsd.runs.beginnings import solver_starts
 from bbsd.runs.command import Command
-from bbsd.runs.joint_policy import joint_policy_returns
 from bbsd.runs.origin import origin_of
 from bbsd.runs.pace import budget_of
-from bbsd.runs.rival_command import paper_episodes
-from bbsd.runs.rivals import each_run, rival, spent
-from bbsd.runs.searching import ANSWER
-from bbsd.runs.storage.folder import DIGEST, digest_of
 from bbsd.runs.storage.identity import identity
 from bbsd.runs.storage.lock import only_writer
 from bbsd.runs.storage.unused import remove_parts
-from bbsd.runs.storage.visits import write_visits
-from bbsd.runs.visits import unvisited
 from bbsd.solver.budget import automatic_budget
-from bbsd.solver.judgement import judge
 from bbsd.solver.paper.settings import settings_of
 
 if TYPE_CHECKING:
@@ -55,11 +38,10 @@ if TYPE_CHECKING:
     from bbsd.environments.opening import Opened
     from bbsd.language.loading import Loaded
     from bbsd.runs.storage.folder import Folder
-    from bbsd.solver.judgement import Selection
     from bbsd.solver.paper.settings import Settings
 
 
-@checked(more=optional(whole(LEAST_BUDGET)), below=optional(path))
+@checked(more=optional(whole(LEAST_BUDGET)), below=optional(path), start=starts)
 def design(
     spec: AnySpec,
     *,
@@ -84,6 +66,7 @@ def design(
     announce: Announce | None = None,
     by_table: bool = True,
     note: Callable[[str], object] | None = None,
+    start: AnySpec | Sequence[AnySpec] = (),
 ) -> Designed:
     """Fill the holes of a spec; where a folder is named, write the design and its metrics into it.
 
@@ -120,7 +103,9 @@ def design(
         announce: Called with each module and its file before it is imported.
         by_table: Step the environment by its table of transitions, if it has one (`P`, as Taxi), and real steps agree
             with it: hundreds of times as fast. What is drawn is drawn from the keys of episodes then.
-        note: Called with a sentence on that, if it has one.
+        note: Called with a sentence on that, if it has one, and on what of a start is set aside.
+        start: A known design, or a list of several, with which the search begins: they are among its first candidates
+            and in its final race. Behaviors, cells and actions are matched by name; what a start leaves open is drawn.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -138,117 +123,55 @@ def design(
     resume = resume or more is not None
     former = former_of(spec, goes_on=resume)
     if former is not None:
+        require_former(former, seed=seed, runs=runs, set=set, out=out, below=below)
         made = former.design()
-        given = {
-            "seed": (seed, 0),
-            "runs": (runs, 1),
-            "set": (set, ()),
-            "out": (out, None),
-            "below": (below, None),
-        }
-        require_former(
-            former, **{name: value for name, (value, default) in given.items() if value != default}
-        )
         spec, seed, runs, set, out = made.spec, made.seed, made.runs, made.overrides, former.path
     require_none(["below"] if None not in (below, out) else [], "beside out, the folder itself")
     require_none(["more"] if None not in (more, within) else [], "beside within")
-    wanted = Wanted(None if out is None else Path(out), None if below is None else Path(below), resume)
     loaded = loaded_again(loaded_from(spec, seed, set), seed=seed)
     opened = opened_environment(
         loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
     )
     problem = problem_with_holes(loaded, opened, lanes, jobs)
-    settings = settings_of(problem.meaning)
-    if settings.method == "paper" and (more is not None or within is not None):
+    method = loaded.spec.design.chosen_method
+    if method == "paper" and (more is not None or within is not None):
         raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
-    known_rivals(rivals, settings.method)
-    run_identity = identity(loaded, seed, runs, None if opened is None else opened.plain())
-    with place_of(wanted, loaded, run_identity) as folder, only_writer(folder):
+    known_rivals(rivals, method)
+    environment_identity = None if opened is None else opened.plain()
+    known = cast("tuple[AnySpec, ...]", start)
+    beginnings = () if resume else beginnings_of(known, problem, seed, note)
+    folder_wanted, new_below = (None if each is None else Path(each) for each in (out, below))
+    wanted = Wanted(folder_wanted, new_below, resume, bool(known))
+    with (
+        place_of(wanted, loaded, identity(loaded, seed, runs, environment_identity)) as folder,
+        only_writer(folder),
+    ):
+        if resume:
+            beginnings = resumed_beginnings(known, folder, problem, seed, note)
+        begun = solver_starts(problem, beginnings, seed)
+        settings = settings_of(problem.meaning, begun)
+        run_identity = identity(loaded, seed, runs, environment_identity, begun)
         remove_parts(folder.path)
         if not resume:
             folder.begin(loaded.lineage.flat.source.text)
-        fickle = None if opened is None else _fickle(opened, loaded)
+        fickle = None if opened is None else why_fickle(opened, loaded)
         budgets = _budgets(settings, problem, folder, more, within)
         if not resume or budgets != folder.budgets():
-            folder.write_run_file(run_identity, loaded.overrides, budgets, folder.result() or None, fickle)
+            result = folder.result() or None
+            folder.write_run_file(run_identity, loaded.overrides, budgets, result, fickle, beginnings)
         command = Command(
-            problem, settings, seed, runs, folder, run_identity, budgets, within, origin_of(loaded, opened)
+            problem,
+            settings,
+            seed,
+            runs,
+            folder,
+            run_identity,
+            budgets,
+            within,
+            origin_of(loaded, opened, beginnings),
         )
-        listener = progress and _metrics_listener(command, progress)
-        with interruptible(command, loaded, overdue, keep_best=True, is_kept=wanted.is_kept):
-            answers = complete_runs(command, jobs, listener, engine)
-            judged = judge(answers, problem, settings, seed)
-            missed = unvisited(command)
-            designed = tidy_tables(problem.meaning, judged.architecture)
-            visits = visits_after_design(problem, designed, seed, has_kernel=settings.method != "paper")
-        folder.gather(runs)
-        text = designed_text(loaded, designed)
-        folder.write_architecture(text)
-        write_visits(folder.path, text, problem.names, visits)
-        names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
-        result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
-        folder.write_run_file(run_identity, loaded.overrides, budgets, result, fickle)
-        elsewhere = None if engine is None or engine.shares_machine else engine
-        with interruptible(command, loaded, overdue, keep_best=False, is_kept=wanted.is_kept):
-            others = tuple(
-                rival(
-                    command,
-                    name,
-                    loaded,
-                    jobs,
-                    progress and _metrics_listener(command, progress, name),
-                    elsewhere,
-                )
-                for name in rivals
-            )
-        # What follows reads the runs again, and mends them where it must: nobody else may write yet.
-        seconds = time.monotonic() - started
-        return Designed(
-            loaded.spec.name,
-            text,
-            folder.path if wanted.is_kept else None,
-            tuple(folder.lines()),
-            visits,
-            settings.method,
-            names,
-            judged.evaluation,
-            judged.lifetime,
-            judged.random,
-            seconds,
-            judged.selection,
-            spent(command),
-            each_run(command, answers) if runs > 1 else (),
-            others,
-            _first_reward(folder, judged.selection),
-            missed,
-            joint_policy_returns(command),
-            fickle or "",
-        )
-
-
-def _fickle(opened: Opened, loaded: Loaded) -> str:
-    """Return why an environment's episodes cannot be repeated; '' where they can, as far as a self-check shows."""
-    from bbsd.engines.processes import waiting_processes
-    from bbsd.environments.for_spec import settings
-    from bbsd.environments.self_check import self_check
-
-    if opened.table is not None:
-        return ""
-    if opened.recipe.given is not None and not opened.recipe.is_portable:
-        return self_check(opened, settings(loaded.meaning))
-    with waiting_processes(1, ("bbsd.environments.self_check",)) as processes:
-        return self_check(opened, settings(loaded.meaning), processes.submit)
-
-
-def _first_reward(folder: Folder, selection: Selection) -> int | None:
-    """Return the episodes after which a search had a design that earns something else than all random agents."""
-    if selection.alike is None:
-        return None
-    lines = folder.lines()
-    return min(
-        (line["episodes"] for line in lines if "episodes" in line and line["mean"] != selection.alike),
-        default=None,
-    )
+        kept = Kept(loaded, fickle, is_written=wanted.is_kept)
+        return carried_out(command, kept, Means(jobs, engine, progress, overdue, rivals), started)
 
 
 def _budgets(
@@ -279,22 +202,3 @@ def problem_with_holes(loaded: Loaded, opened: Opened | None, lanes: int, jobs: 
         raise NothingToDesign(f"{loaded.source.file} has no holes: every cell and every layer is given")
     require_writable(loaded)
     return problem
-
-
-def _metrics_listener(
-    command: Command, progress: Callable[[AnyProgress], None], rival_name: str = ""
-) -> Callable[[dict[str, Any]], None]:
-    """Return a function that reports the metrics of a generation as progress."""
-
-    def report(line: dict[str, Any]) -> None:
-        run, runs = line["run"], command.n_runs
-        if "generation" in line:
-            fitness = (line["mean"], line["best"], line["lifetime"])
-            generations = command.settings.coevolution.generations
-            progress(Progress(run, runs, line["generation"], generations, *fitness))
-        else:
-            best = (line["mean"], line["measured"], line["stage"] == ANSWER)
-            budget = sum(command.budgets) or paper_episodes(command.settings)
-            progress(SearchProgress(run, runs, line["episodes"], budget, *best, rival_name))
-
-    return report

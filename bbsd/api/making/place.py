@@ -8,11 +8,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.api.given.arguments import BadArgument
+from bbsd.api.given.arguments import Assignments, BadArgument, assignments
 from bbsd.api.given.sources import DICT, TEXT, is_path, path_of
 from bbsd.api.results import Designed, NothingToDesign
+from bbsd.runs.storage.choosing import RUNS, folder_to_resume, new_folder
 from bbsd.runs.storage.finished import design_file, way_on
-from bbsd.runs.storage.folder import RUNS, Folder, folder_to_resume, new_folder
+from bbsd.runs.storage.folder import Folder
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,6 +33,8 @@ class Wanted(NamedTuple):
     below: Path | None
     """The folder in which a new one is made, or in which the newest is looked for."""
     resume: bool
+    has_start: bool = False
+    """Whether it begins with known designs."""
 
     @property
     def is_kept(self) -> bool:
@@ -47,7 +50,7 @@ def place_of(wanted: Wanted, loaded: Loaded, who: Identity) -> Iterator[Folder]:
     """
     name = _stem(loaded)
     if wanted.resume:
-        yield folder_to_resume(wanted.out, name, who, wanted.below or RUNS)
+        yield folder_to_resume(wanted.out, name, who, wanted.below or RUNS, has_start=wanted.has_start)
     elif wanted.is_kept:
         yield new_folder(wanted.out, name, who.seed, wanted.below or RUNS)
     else:
@@ -89,13 +92,21 @@ def _ways_on(path: Path) -> str:
     return f"--more N goes on with it; --start {path} begins anew with its design; {former} shows its result again"
 
 
-def require_former(folder: Folder, **given: object) -> None:
-    """Raise BadArgument where arguments differ from what the design in a folder was begun with."""
+def require_former(
+    folder: Folder, *, seed: int, runs: int, set: Assignments, out: object, below: object
+) -> None:
+    """Raise BadArgument where arguments are given that differ from what the design in a folder was begun with."""
     made = folder.design()
-    own = {"seed": made.seed, "runs": made.runs, "set": made.overrides, "out": folder.path}
-    for name, value in given.items():
-        if value != own[name]:
+    given = {
+        "seed": (seed, 0, made.seed),
+        "runs": (runs, 1, made.runs),
+        "set": (assignments(set), (), made.overrides),
+        "out": (out, None, folder.path),
+        "below": (below, None, None),
+    }
+    for name, (value, default, former) in given.items():
+        if value not in (default, former):
             raise BadArgument(
-                f"{folder.path} was begun with another {name}: {own[name]!r:.60}, not {value!r:.60}",
+                f"{folder.path} was begun with another {name}: {former!r:.60}, not {value!r:.60}",
                 f"leave out {name}, or give the spec instead of the folder",
             )

@@ -7,23 +7,22 @@ import platform
 from dataclasses import dataclass
 from hashlib import sha256
 from importlib.metadata import version
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bbsd.files import make_folder, move, read_regular, write_text_whole, write_whole
+from bbsd.files import move, read_regular, write_text_whole, write_whole
+from bbsd.runs.beginnings import beginning_of_plain
 from bbsd.runs.storage.census import TABLES
 from bbsd.runs.storage.finished import ARCHITECTURE, BEST, RUN_FILE, SPEC, run_content
 from bbsd.runs.storage.records import METRICS, FolderError, Records
 from bbsd.runs.storage.unused import is_unused
-from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
 
+    from bbsd.runs.beginnings import Beginning
     from bbsd.runs.storage.identity import Identity
 
-RUNS = Path("runs")
-"""Where designs are written that name no folder."""
 FORMAT = 3
 """The format of `run.json`."""
 DIGEST = "architecture_sha256"
@@ -89,7 +88,7 @@ class Folder:
             FolderError: another design was written into the folder before it was locked.
         """
         if not is_unused(self.path):
-            raise FolderError(_not_empty(self.path))
+            raise FolderError(not_empty_text(self.path))
         self.run_file.unlink(missing_ok=True)  # of a design that ended before its first step was kept
         write_text_whole(self.path / SPEC, text)
 
@@ -139,6 +138,15 @@ class Folder:
             raise FolderError(f"the budgets in {self.run_file} are damaged; remove the folder to start again")
         return tuple(budgets)
 
+    def beginnings(self) -> tuple[Beginning, ...]:
+        """Return the known designs that `run.json` holds. Raises FolderError where they are none."""
+        try:
+            return tuple(beginning_of_plain(each) for each in self.read_run_file().get("starts", []))
+        except (TypeError, AttributeError):
+            raise FolderError(
+                f"the starts in {self.run_file} are damaged; remove the folder to start again"
+            ) from None
+
     def lines(self) -> list[dict[str, Any]]:
         """Return the metrics of all generations. Raises FolderError for a damaged file."""
         return Records(self.path).lines()
@@ -150,6 +158,7 @@ class Folder:
         budgets: Sequence[int] = (),
         result: dict[str, Any] | None = None,
         fickle: str | None = None,
+        beginnings: Sequence[Beginning] = (),
     ) -> None:
         """Write `run.json`, with the result once there is one.
 
@@ -159,11 +168,13 @@ class Folder:
             budgets: of each run, one after another.
             result: what came out.
             fickle: why an environment in Python does not repeat its episodes, '' where it does; None without one.
+            beginnings: the known designs that it begins with.
         """
         content = {
             "format": FORMAT,
             **who.plain(),
             "set": list(overrides),
+            **({"starts": [each.plain() for each in beginnings]} if beginnings else {}),
             **({"budgets": list(budgets)} if budgets else {}),
             "versions": {name: version(name) for name in ("numba", "numpy", "llvmlite")},
             "machine": {
@@ -213,91 +224,6 @@ def _agrees(content: Mapping[str, Any], expected: Mapping[str, Any]) -> bool:
     return all(content.get(key) == value for key, value in expected.items())
 
 
-def new_folder(wanted: Path | None, name: str, seed: int, below: Path = RUNS) -> Folder:
-    """Make a new folder: the one wanted, which must be empty or not there, or the first free one below another."""
-    try:
-        if wanted is None:
-            return Folder(next(path for path in _defaults(below, name, seed) if _make(path)))
-        if not _make(wanted) and not is_unused(wanted):
-            raise FolderError(_not_empty(wanted))
-    except OSError as error:
-        raise FolderError(f"{error.filename} cannot be made: {error.strerror}") from None
-    return Folder(wanted)
-
-
-def _make(path: Path) -> bool:
-    """Make a folder and return True, or False if it is there, maybe made by another run just now."""
-    if not path.parent.is_dir():
-        _make(path.parent)
-    try:
-        return make_folder(path)
-    except FileExistsError:
-        return False
-
-
-def _not_empty(path: Path) -> str:
+def not_empty_text(path: Path) -> str:
+    """Return what is said of a folder that is not empty."""
     return f"{path} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
-
-
-def folder_to_resume(wanted: Path | None, name: str, who: Identity, below: Path = RUNS) -> Folder:
-    """Return the folder of a design: the one wanted, or the newest one below another.
-
-    Raises FolderError if no folder holds this design, or only by another version or revision of bbsd.
-    """
-    folders = [Folder(wanted)] if wanted is not None else [*_default_folders(below, name, who.seed)]
-    for folder in reversed(folders):
-        if folder.holds(who):
-            return folder
-    for folder in reversed(folders):
-        if folder.holds_other_version(who):
-            raise FolderError(_other_version(folder, who))
-    if wanted is not None:
-        raise FolderError(_other_run(folders[0], who))
-    raise FolderError(
-        f"there is no run of this spec with this seed under {below}/ that could be resumed; name its folder with --out"
-    )
-
-
-def _other_run(folder: Folder, who: Identity) -> str:
-    content = folder.read_run_file()
-    if not folder.path.exists():
-        return f"there is no folder {folder.path}: nothing was begun there; start it without --resume"
-    if not folder.run_file.exists() and is_unused(folder.path):
-        return f"{folder.path} holds no run of this spec: nothing was begun there; start it without --resume"
-    different = f": different are {' and '.join(who.differences(content))}" if "spec" in content else ""
-    return f"{folder.path} holds no run of this spec with this seed, these runs and these settings{different}"
-
-
-def _other_version(folder: Folder, who: Identity) -> str:
-    content = folder.read_run_file()
-    if content.get("bbsd") == __version__ and content.get("revision") == REVISION:
-        different = " and ".join(who.differences(content))
-        return (
-            f"{folder.path} is a run of the same spec and seed in another environment: different are {different}; "
-            "resume it where it was begun, or start again without --resume"
-        )
-    theirs = (
-        f"bbsd {content.get('bbsd', 'of unknown version')}, revision {content.get('revision', 'unknown')}"
-    )
-    return (
-        f"{folder.path} is a run of the same spec and seed by {theirs}; this is bbsd {__version__}, "
-        f"revision {REVISION}, which may give other results: resume it with the former, or start again without --resume"
-    )
-
-
-def _default_folders(below: Path, name: str, seed: int) -> Iterator[Folder]:
-    """Yield the folders below another that are there, oldest first."""
-    for path in _defaults(below, name, seed):
-        if not path.exists():
-            return
-        yield Folder(path)
-
-
-def _defaults(below: Path, name: str, seed: int) -> Iterator[Path]:
-    """Yield the folders below another that a design may use, one after another without end."""
-    base = below / f"{name}-seed{seed}"
-    yield base
-    number = 2
-    while True:
-        yield base.with_name(f"{base.name}-{number}")
-        number += 1

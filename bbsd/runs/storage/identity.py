@@ -13,13 +13,14 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from bbsd.language.loading import Loaded
+    from bbsd.solver.starts import Starts
     from bbsd.text import Data
 
 WITHOUT_MEANING = ("bbsd", "name", "summary", "view", "extends")
 """Blocks that change no episode."""
 FREE = "x-"
-ENVIRONMENT = "environment"
-"""The key of what identifies the environment, beside the spec."""
+ENVIRONMENT, START = "environment", "start"
+"""The keys of what identifies the environment and the start, beside the spec."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +33,14 @@ class Identity:
     runs: int
     environment: tuple[tuple[str, str], ...] = ()
     """What identifies the environment that is stepped in Python; none where the world is the spec's own."""
+    start: str = ""
+    """A digest of the known designs that it begins with, '' of none."""
 
     def plain(self) -> dict[str, Any]:
         """Return the identity as `run.json` and checkpoints hold it."""
         environment = {ENVIRONMENT: dict(self.environment)} if self.environment else {}
-        return {"bbsd": __version__, "revision": REVISION, **self.command(), **environment}
+        start = {START: self.start} if self.start else {}
+        return {"bbsd": __version__, "revision": REVISION, **self.command(), **environment, **start}
 
     def command(self) -> dict[str, Any]:
         """Return the part of the identity that the user chose."""
@@ -58,6 +62,8 @@ class Identity:
         }.items():
             if content.get(key) != expected[key]:
                 words.append(f"the {name} ({content.get(key, 'unknown')}, not {expected[key]})")
+        if content.get(START, "") != self.start:
+            words.append("the start")
         return [*words, *self._other_environment(content)]
 
     def _other_environment(self, content: Mapping[str, Any]) -> list[str]:
@@ -71,7 +77,13 @@ class Identity:
         ]
 
 
-def identity(loaded: Loaded, seed: int, runs: int, environment: Mapping[str, str] | None = None) -> Identity:
+def identity(
+    loaded: Loaded,
+    seed: int,
+    runs: int,
+    environment: Mapping[str, str] | None = None,
+    starts: Starts | None = None,
+) -> Identity:
     """Return the identity of a design; `environment` identifies one that is stepped in Python."""
     data = loaded.data if isinstance(loaded.data, dict) else {}
     paper = loaded.spec.design.chosen_method == "paper"
@@ -85,6 +97,7 @@ def identity(loaded: Loaded, seed: int, runs: int, environment: Mapping[str, str
         seed,
         runs,
         tuple((environment or {}).items()),
+        "" if starts is None else starts.digest,
     )
 
 

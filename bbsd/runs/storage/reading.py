@@ -39,6 +39,8 @@ RUN: dict[str, tuple[type, ...]] = {
     "runs": (int,),
     "environment": (dict,),
     "set": (list,),
+    "start": (str,),
+    "starts": (list,),
     "versions": (dict,),
     "machine": (dict,),
     "reproducible": (bool,),

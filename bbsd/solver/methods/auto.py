@@ -18,8 +18,9 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.climb import Climb, advance_climb, begin_climb
 from bbsd.solver.methods import joint, practice, q_learning, random_search, societies
+from bbsd.solver.methods.founding import led
 from bbsd.solver.methods.method import Method, SearchState, with_champions
-from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
+from bbsd.solver.methods.nomination import CAPACITY, begun, nominated, with_rest_spent
 from bbsd.solver.space import Designs
 
 if TYPE_CHECKING:
@@ -137,6 +138,7 @@ def _run_key(key: int, search: int, run: int) -> int:
 
 def advance(state: AutoState, arena: Arena, key: int, budget: int) -> AutoState:
     """Take the search that has its turn, or the climb, a round further."""
+    state = begun(state, arena, fold(key, COMMON), budget)
     further = _search_round if state.turn < len(state.searches) else _climb_round
     after = further(state, arena, key, budget)
     if after.spent == state.spent and after.spent < budget:
@@ -150,7 +152,9 @@ def _search_round(state: AutoState, arena: Arena, key: int, budget: int) -> Auto
     index = state.turn
     search, method = state.searches[index], _methods(arena, state.planned_in_all)[index]
     most = min(int(state.planned[index]), search.spent + budget - state.spent)
-    after = method.advance(search, arena, _run_key(key, index, int(state.runs[index])), most)
+    begins_known = not state.runs[index] and method is not random_search.METHOD
+    where = arena if begins_known else arena.afresh
+    after = method.advance(search, where, _run_key(key, index, int(state.runs[index])), most)
     searches = (*state.searches[:index], after, *state.searches[index + 1 :])
     state = replace(state, searches=searches, spent=state.spent + after.spent - search.spent)
     return state if after.spent < most else _after_run(state, arena, key, budget)
@@ -169,7 +173,7 @@ def _after_run(state: AutoState, arena: Arena, key: int, budget: int) -> AutoSta
     """Let the best designs of a run that is over take part in the common episodes, and give the next turn."""
     index, champions = state.turn, state.searches[state.turn].champions
     most = NOMINEES if state.planned_in_all < MANY else MANY_NOMINEES
-    nominees = Designs(champions.tables[:most], champions.structures[:most])
+    nominees = _found(Designs(champions.tables, champions.structures), arena)[:most]
     state = nominated(state, arena, fold(key, COMMON), nominees, budget - state.spent)
     best, runs = state.best.copy(), state.runs.copy()
     best[index] = max(best[index], _best_of(state, nominees))
@@ -216,10 +220,18 @@ def _with_breeding(state: AutoState, arena: Arena, key: int, episodes: int) -> A
         for rank, index in sorted(rows)[:size]
     ]
     population = best[0].joined(*best[1:], search.population)[np.arange(size)] if best else search.population
-    search = replace(search, population=population, round=1)
+    search = replace(search, population=led(population, arena.starts), round=1)
     return _with_more(
         replace(state, searches=(*state.searches[:-1], search)), len(state.searches) - 1, episodes
     )
+
+
+def _found(designs: Designs, arena: Arena) -> Designs:
+    """Return the designs that were found, without those with which all searches began."""
+    if arena.starts is None:
+        return designs
+    known = {_bytes_of(arena.starts, index) for index in range(len(arena.starts))}
+    return designs[np.array([_bytes_of(designs, index) not in known for index in range(len(designs))], bool)]
 
 
 def _is_promising(state: AutoState, arena: Arena, index: int) -> bool:
@@ -261,7 +273,7 @@ def _with_further_run(state: AutoState, arena: Arena, key: int, episodes: int) -
     planned = state.planned.copy()
     planned[index] = max(1, episodes)
     fresh = _methods(arena, state.planned_in_all)[index].begin(
-        arena, _run_key(key, index, int(state.runs[index])), int(planned[index])
+        arena.afresh, _run_key(key, index, int(state.runs[index])), int(planned[index])
     )
     searches = (*state.searches[:index], fresh, *state.searches[index + 1 :])
     return replace(state, searches=searches, planned=planned, turn=index)

@@ -15,7 +15,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.distribution import Distribution, uniform_distribution
 from bbsd.solver.methods.method import Method, SearchState
-from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
+from bbsd.solver.methods.nomination import CAPACITY, begun, nominated, with_rest_spent
 from bbsd.solver.paper.sharing import lifetime_fitness
 
 if TYPE_CHECKING:
@@ -63,6 +63,7 @@ def begin(arena: Arena, key: int, budget: int) -> CrossEntropyState:
 
 def advance(state: CrossEntropyState, arena: Arena, key: int, budget: int) -> CrossEntropyState:
     """Draw designs, move the distribution toward the best tenth, and nominate its best guess and theirs."""
+    state = begun(state, arena, key, budget)
     space, stream, left = arena.space, fold(key, word_of(state.round)), budget - state.spent
     count = min(max(int(state.planned * ROUND_SHARE) // EPISODES, FEWEST), MOST, left // EPISODES)
     if count < min(FEWEST, 1 / ELITE):
@@ -70,6 +71,8 @@ def advance(state: CrossEntropyState, arena: Arena, key: int, budget: int) -> Cr
     distribution = state.distribution
     if state.round % LONGEST == 0:
         distribution = uniform_distribution(space)
+    if state.round == 0 and arena.starts is not None:
+        distribution = distribution.moved(space, arena.starts, STEP, FLOOR)
     fitness = fitness_of_drawn(distribution, arena, stream, count)
     best = np.argsort(-fitness, kind="stable")[: int(count * ELITE)]
     elite = distribution.drawn(space, fold(stream, DRAWN), best)

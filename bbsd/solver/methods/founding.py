@@ -23,6 +23,11 @@ CHUNK = 10_000_000
 """Cells of designs in memory at a time."""
 
 
+def led(population: Designs, starts: Designs | None) -> Designs:
+    """Return a population of the same size with known designs before all others."""
+    return population if starts is None else starts.joined(population)[: len(population)]
+
+
 def best_random(
     arena: Arena, key: int, count: int, episodes: int, kept: int
 ) -> tuple[Designs, NDArray[np.float64]]:

@@ -11,6 +11,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.climb import Climb, advance_climb, begin_climb
 from bbsd.solver.methods.method import Method, SearchState, with_champions
+from bbsd.solver.methods.nomination import begun
 
 if TYPE_CHECKING:
     from bbsd.solver.arena import Arena
@@ -47,6 +48,7 @@ def begin(arena: Arena, key: int, budget: int) -> HillState:
 
 def advance(state: HillState, arena: Arena, key: int, budget: int) -> HillState:
     """Take the climb further, or begin another where it is over."""
+    state = begun(state, arena, key, budget)
     if state.climb.at_optimum:
         return _restarted(state, arena, fold(key, word_of(state.round)), budget)
     before = state.climb.spent
@@ -64,8 +66,11 @@ def advance(state: HillState, arena: Arena, key: int, budget: int) -> HillState:
 
 
 def _restarted(state: HillState, arena: Arena, stream: int, budget: int) -> HillState:
-    """Return the state with a new climb, from the best of some random designs."""
+    """Return the state with a new climb: from each known design, then from the best of some random ones."""
     left = budget - state.spent
+    if arena.starts is not None and state.starts < len(arena.starts):
+        climb = begin_climb(arena.starts[state.starts : state.starts + 1])
+        return replace(state, round=state.round + 1, climb=climb, starts=state.starts + 1)
     count = max(1, min(STARTS, left // START_PART // (FIRST_HEAT * LONGER)))
     designs, mean, spent = _best_by_heats(
         arena.space.random(fold(stream, DRAWN), count), arena, fold(stream, HEATS), left

@@ -15,9 +15,9 @@ from bbsd.kernel.jit import jit
 from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import chance, fold, name_word, word_of
 from bbsd.solver.champions import no_champions
-from bbsd.solver.methods.founding import SHARE, best_random
+from bbsd.solver.methods.founding import SHARE, best_random, led
 from bbsd.solver.methods.method import Method, SearchState
-from bbsd.solver.methods.nomination import CAPACITY, nominated, with_rest_spent
+from bbsd.solver.methods.nomination import CAPACITY, begun, nominated, with_rest_spent
 from bbsd.solver.paper.sharing import lifetime_fitness
 from bbsd.solver.space import Designs, uniforms
 
@@ -64,12 +64,13 @@ def begin(arena: Arena, key: int, budget: int) -> JointState:
     return JointState(
         champions=no_champions(arena.problem, CAPACITY),
         planned=max(1, budget),
-        population=arena.space.random(fold(key, FOUNDED), count),
+        population=led(arena.space.random(fold(key, FOUNDED), count), arena.starts),
     )
 
 
 def advance(state: JointState, arena: Arena, key: int, budget: int) -> JointState:
     """Breed some generations and nominate the best designs of the last."""
+    state = begun(state, arena, key, budget)
     stream, left = fold(fold(key, GENERATIONS), word_of(state.round)), budget - state.spent
     tried = int(SHARE * state.planned) // EPISODES
     if state.round == 0 and len(state.population) <= tried <= left // EPISODES:
@@ -93,6 +94,7 @@ def founded(state: JointState, arena: Arena, key: int, count: int, left: int) ->
     """Make the best of so many random designs the population."""
     size, spent = len(state.population), count * EPISODES
     population, _ = best_random(arena, fold(key, FOUNDED), count, EPISODES, size)
+    population = led(population, arena.starts)
     state = replace(state, round=1, spent=state.spent + spent, population=population)
     return nominated(state, arena, key, population[:NOMINATED], left - spent)
 

@@ -49,6 +49,16 @@ def nominated(state: State, arena: Arena, key: int, designs: Designs, left: int)
     return replace(state, champions=champions, spent=state.spent + len(new) * EPISODES)
 
 
+def begun(state: State, arena: Arena, key: int, budget: int) -> State:
+    """Return the state, before the first round with the known designs nominated that the search begins with.
+
+    They have half of the budget at most.
+    """
+    if arena.starts is None or state.round or state.spent:
+        return state
+    return nominated(state, arena, key, arena.starts, budget // 2)
+
+
 def nominated_means(state: SearchState, designs: Designs) -> NDArray[np.float64]:
     """Return the mean of each design that is a champion, -inf for another, (n_designs,)."""
     champions = state.champions

@@ -18,7 +18,7 @@ from bbsd.solver.champions import no_champions
 from bbsd.solver.draws import marks
 from bbsd.solver.methods.credit import credit_backwards, learn_values, perturbed_tables, rates_between
 from bbsd.solver.methods.method import Method, SearchState, with_champions
-from bbsd.solver.methods.nomination import CAPACITY, EPISODES, NOMINATION, with_rest_spent
+from bbsd.solver.methods.nomination import CAPACITY, EPISODES, NOMINATION, begun, with_rest_spent
 from bbsd.solver.space import Designs
 
 if TYPE_CHECKING:
@@ -89,6 +89,8 @@ class PracticeState(SearchState):
 def begin(arena: Arena, key: int, budget: int) -> PracticeState:
     """Return the state before the first round."""
     orders = arena.space.random_orders(fold(key, ORDERS), DRAWN)
+    if arena.starts is not None:
+        orders = np.concatenate([arena.starts.structures, orders])
     _, first = np.unique(orders, axis=0, return_index=True)
     n_pairs, n_joint = int(arena.space.first_pairs[-1]), arena.problem.kernels.joint.n_cells
     n_pupils = min(PUPILS, max(1, MOST_PAIRS // n_pairs))
@@ -112,6 +114,7 @@ def begin(arena: Arena, key: int, budget: int) -> PracticeState:
 
 def advance(state: PracticeState, arena: Arena, key: int, budget: int) -> PracticeState:
     """Let one order practice for a round and now and then measure its best tables; at a rung drop the worse orders."""
+    state = begun(state, arena, key, budget)
     left = budget - state.spent
     rungs = sum(state.spent >= rung * state.planned for rung in RUNGS)
     kept = max(1, PUPILS >> rungs)

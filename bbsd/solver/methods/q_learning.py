@@ -17,6 +17,7 @@ from bbsd.kernel.keys import keys
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.method import Method, SearchState, with_champions
+from bbsd.solver.methods.nomination import begun
 from bbsd.solver.methods.projection import projection
 from bbsd.solver.methods.q_backup import learn_backwards
 from bbsd.solver.space import Designs, uniforms
@@ -110,6 +111,7 @@ def begin(arena: Arena, key: int, budget: int) -> QState:
 
 def advance(state: QState, arena: Arena, key: int, budget: int) -> QState:
     """Learn from episodes; every few rounds, and at last, check what was learned instead."""
+    state = begun(state, arena, key, budget)
     stream, left = fold(key, word_of(state.round)), budget - state.spent
     last_check = min((PROJECTIONS + 2) * CHECK_EPISODES, budget // 3)
     if state.round % (CHECK_EVERY + 1) == CHECK_EVERY or left <= max(1, last_check):

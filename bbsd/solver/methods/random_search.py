@@ -10,6 +10,7 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.method import Method, SearchState, with_champions
+from bbsd.solver.methods.nomination import begun
 
 if TYPE_CHECKING:
     from bbsd.solver.arena import Arena
@@ -31,6 +32,7 @@ def begin(arena: Arena, key: int, budget: int) -> SearchState:
 
 def advance(state: SearchState, arena: Arena, key: int, budget: int) -> SearchState:
     """Draw designs, and let the best tenth have more episodes than the others."""
+    state = begun(state, arena, key, budget)
     stream, left = fold(key, word_of(state.round)), budget - state.spent
     count = max(1, min(DESIGNS, left * 10 // (10 * EPISODES + MORE_EPISODES)))
     designs = arena.space.random(fold(stream, DRAWN), count)

@@ -15,7 +15,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.founding import SHARE
 from bbsd.solver.methods.method import Method, SearchState
-from bbsd.solver.methods.nomination import CAPACITY, nominated, nominated_means, with_rest_spent
+from bbsd.solver.methods.nomination import CAPACITY, begun, nominated, nominated_means, with_rest_spent
 from bbsd.solver.methods.society import (
     CULTURE,
     Size,
@@ -112,13 +112,21 @@ def advance(state: SocietiesState, arena: Arena, key: int, budget: int) -> Socie
 
 
 def founded(state: SocietiesState, arena: Arena, key: int, budget: int) -> SocietiesState:
-    """Found the small societies of a ladder, each of the best of random agents of its own."""
+    """Found the small societies of a ladder, each of the best of random agents; the very first has known ones too."""
     n_small, stream = number_of_small(state.planned), fold(fold(key, FOUNDED), word_of(state.spent))
     count = int(SHARE * state.planned) // (n_small * EPISODES)
+    is_first = not state.spent
+    state = begun(state, arena, key, budget)
     if count < SMALL.population or n_small * count * EPISODES > budget - state.spent:
         return with_rest_spent(replace(state, round=state.round + 1), arena, key, budget - state.spent)
     small = tuple(
-        first_society(arena, fold(stream, word_of(index)), SMALL.population, count, EPISODES)
+        first_society(
+            arena if is_first and not index else arena.afresh,
+            fold(stream, word_of(index)),
+            SMALL.population,
+            count,
+            EPISODES,
+        )
         for index in range(n_small)
     )
     state = replace(state, small=(*small, *state.small[n_small:]))

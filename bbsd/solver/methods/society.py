@@ -16,7 +16,7 @@ import numpy as np
 from bbsd.evaluation import Agents
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.language.design import CultureSettings
-from bbsd.solver.methods.founding import best_random
+from bbsd.solver.methods.founding import best_random, led
 from bbsd.solver.paper.culture import Culture, draw_memes, empty_culture, take_in
 from bbsd.solver.paper.genetics import Breeding, next_pool
 from bbsd.solver.paper.pairing import members
@@ -81,11 +81,12 @@ def society_of(agents: Designs) -> Society:
 
 
 def first_society(arena: Arena, key: int, population: int, count: int, episodes: int) -> Society:
-    """Return a society of the best of `count` random agents: their modules, and their structures as memes.
+    """Return a society of known agents and the best of `count` random ones: modules, and structures as memes.
 
     It spends count * episodes episodes; count is at least the population, and that at least 2.
     """
     best, fitness = best_random(arena, key, count, episodes, population)
+    best = led(best, arena.starts)  # which count as the best until they have lived
     society = society_of(best)
     return replace(society, culture=take_in(society.culture, best.structures, fitness, CULTURE))
 

@@ -16,6 +16,7 @@ from bbsd.solver.paper.culture import Culture, draw_memes, empty_culture, take_i
 from bbsd.solver.paper.genetics import expected_fitness, next_pool, random_pool
 from bbsd.solver.paper.lifetime import Lifetimes, run_lifetimes
 from bbsd.solver.paper.pairing import members
+from bbsd.solver.space import Space
 from bbsd.solver.structures import random_structures
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler import Pool, Problem
     from bbsd.solver.paper.settings import Settings
+    from bbsd.solver.space import Designs
 
 POOLS, PAIRING, BIRTH, MEMES, LIFETIMES, BREEDING = (
     name_word(name) for name in ("pools", "pairing", "birth", "memes", "lives", "breeding")
@@ -66,9 +68,21 @@ def initial_state(problem: Problem, settings: Settings, key: int) -> State:
         )
         for index, table in enumerate(problem.tables)
     )
+    known = known_agents(problem, settings, key)
+    if known is not None:
+        for pool, tables in zip(pools, Space(problem).by_behavior(known.tables), strict=True):
+            pool[:] = np.concatenate([tables, pool])[: len(pool)]
     unknown = np.zeros((len(pools), settings.coevolution.population))
     culture = empty_culture(len(problem.layers))
     return State(0, pools, unknown, culture, no_champions(problem, settings.answer.candidates))
+
+
+def known_agents(problem: Problem, settings: Settings, run_key: int) -> Designs | None:
+    """Return the known designs that a run begins with, at most as many as agents and individuals; None of none."""
+    if settings.starts is None:
+        return None
+    evolved = settings.coevolution
+    return settings.starts.drawn(Space(problem), run_key)[: min(evolved.population, evolved.agents)]
 
 
 def next_generation(state: State, problem: Problem, settings: Settings, run_key: int) -> tuple[State, Census]:
@@ -85,6 +99,12 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
     # Select n different behavior modules, one from each pool; select a meme, the initial structure.
     chosen = members(fold(key, PAIRING), expected, settings.coevolution.agents, settings.coevolution.pairing)
     structures = initial_structures(state.culture, problem, settings, key, len(chosen))
+    known = known_agents(problem, settings, run_key) if generation == 1 else None
+    if known is not None:
+        # The individuals of a known design stand first in the pools, and meet in an agent.
+        structures[: len(known)] = known.structures
+        for index, pool in enumerate(pools):
+            chosen[: len(known), index] = np.minimum(np.arange(len(known)), len(pool) - 1)
     agents = Agents(pools, chosen, structures)
     # For a lifetime: choose T* (9), interact, receive reinforcement, update the values (13).
     streams = keys(fold(key, LIFETIMES), 0, len(agents))
@@ -95,6 +115,8 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
     # Update the meme pool using T* and its fitness (22).
     culture = state.culture
     if settings.culture is not None:
+        if known is not None:
+            culture = take_in(culture, known.structures, fitness[: len(known)], settings.culture)
         culture = take_in(culture, lifetimes.structures, fitness, settings.culture)
 
     champions = state.champions.joined(agents.with_structures(lifetimes.structures), fitness)

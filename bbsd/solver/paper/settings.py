@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from bbsd.language.design import Answer, Coevolution, CultureSettings, Learning, MethodName
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.rates import Rates
+    from bbsd.solver.starts import Starts
 
 IN_PYTHON = {"episodes": 2_000, "judged": 1_000}
 """Of the block `answer`, what is the default where the environment is stepped in Python."""
@@ -36,6 +37,8 @@ class Settings:
     """Whether there is a structure to learn."""
     rates: Rates
     """Mutation rates of each generation; learning rate α of (13) and exploration ε of each episode of a lifetime."""
+    starts: Starts | None = None
+    """Known designs to begin with."""
 
     def breeding(self, generation: int) -> Breeding:
         """Return the settings of the genetic operators in a generation, which counts from 1."""
@@ -59,7 +62,7 @@ class Settings:
         )
 
 
-def settings_of(meaning: Meaning) -> Settings:
+def settings_of(meaning: Meaning, starts: Starts | None = None) -> Settings:
     """Return the settings of a spec, given the meaning whose episodes run (`Problem.meaning`)."""
     design, learned = meaning.spec.design, meaning.structure.is_open
     elites = min(design.coevolution.elites, design.coevolution.population)
@@ -74,6 +77,7 @@ def settings_of(meaning: Meaning) -> Settings:
         answer=_answer_in_python(design.answer) if meaning.episode.outside else design.answer,
         learned=learned,
         rates=meaning.rates,
+        starts=starts,
     )
 
 

@@ -92,6 +92,7 @@ BAD = {
         ({1: 2}, "set: the path of a value is text, not 1"),
         (5, "set is a list of texts, not 5"),
     ],
+    "start": [(3, "start is a design or a list of designs, not 3"), ([None], "not None")],
     "starting": [("1", "is a number of 0 or more"), (-1, "is a number of 0 or more")],
     "step": whole(1, none=True),
     "step_limit": above_zero(),

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.runs.storage.folder import DIGEST, Folder, FolderError, digest_of, folder_to_resume, new_folder
+from bbsd.runs.storage.choosing import folder_to_resume, new_folder
+from bbsd.runs.storage.folder import DIGEST, Folder, FolderError, digest_of
 from bbsd.runs.storage.identity import Identity
 from bbsd.version import REVISION, __version__
 
