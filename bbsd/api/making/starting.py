@@ -83,7 +83,7 @@ def resumed_beginnings(
 def _differ(designs: Sequence[AnySpec], kept: Sequence[Beginning], problem: Problem, seed: int) -> bool:
     """Return whether designs that are given are others than those that were kept, or cannot be read any more."""
     try:
-        given = solver_starts(problem, [beginning_of(load(each, seed=seed)) for each in starts], seed)
+        given = solver_starts(problem, [beginning_of(load(each, seed=seed)) for each in designs], seed)
     except (SpecError, UsageError, OSError):
         return True
     before = solver_starts(problem, kept, seed)
