@@ -50,6 +50,12 @@ def check(
     strict: Annotated[
         bool, typer.Option("--strict", help="Exit with code 2 if there are warnings too.")
     ] = False,
+    every_hole: Annotated[
+        bool,
+        typer.Option(
+            "--open", help="List all cells and layers that are open to design, not the first alone."
+        ),
+    ] = False,
     fix: Annotated[bool, typer.Option("--fix", help="Correct in the files what has one reading.")] = False,
     diff: Annotated[
         bool, typer.Option("--diff", help="With --fix: write nothing; print the corrections as a diff.")
@@ -65,6 +71,7 @@ def check(
 ) -> None:
     """Report all mistakes in specs, each at its line and column, and what they probably do not mean to say.
 
+    Says which cells and layers are open to design.
     Exits with code 2 if there are mistakes, with --fix if some remain; warnings alone change the code with --strict.
     """
     if diff and not fix:
@@ -73,12 +80,14 @@ def check(
         show(_description(code))
     elif specs:
         fixing = Fixing.NO if not fix else Fixing.SHOWN if diff else Fixing.WRITTEN
-        _check(specs, form, fixing, strict=strict)
+        _check(specs, form, fixing, strict=strict, every_hole=every_hole)
     else:
         raise typer.BadParameter("give a SPEC, or --describe CODE")
 
 
-def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bool) -> None:
+def _check(
+    specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bool, every_hole: bool
+) -> None:
     from bbsd.report.checked import checked_plain, checked_text
 
     checked = [_checked(spec, fixing) for spec in specs]
@@ -86,9 +95,9 @@ def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bo
     match form:
         case MistakeFormat.TEXT:
             color = has_color(sys.stdout)
-            text = "\n".join(checked_text(each, color=color, strict=strict) for each in checked)
+            texts = [checked_text(each, color=color, strict=strict, whole=every_hole) for each in checked]
             # Beside a diff, which programs read, what is said of the specs is for people.
-            (say if fixing is Fixing.SHOWN else show)(text)
+            (say if fixing is Fixing.SHOWN else show)("\n".join(texts))
         case MistakeFormat.JSON:
             show(json_text(checked_plain(checked)))
         case MistakeFormat.GITHUB:

@@ -24,4 +24,86 @@ WARNING_KINDS = (
         ),
         mend="constants:\n  goal: 3\nbehaviors:\n  stop:\n    inputs:\n      reached: height >= goal",
     ),
+    _warning(
+        code="BB202",
+        title="state or world that never changes",
+        explanation=(
+            "Neither dynamics nor an action sets it, and it starts with the same value in every episode and for every "
+            "robot. Perhaps its dynamics were forgotten; else it is a constant. A start that is drawn, or that depends "
+            "on robot, is no constant."
+        ),
+        example=("environment:\n  world:\n    wind: 1\n  dynamics:\n    height: height + speed + wind"),
+        mend=(
+            "environment:\n  world:\n    wind: 1\n  dynamics:\n    height: height + speed + wind\n"
+            "    wind: wind + normal(0, 1)"
+        ),
+    ),
+    _warning(
+        code="BB203",
+        title="an action that changes nothing",
+        explanation=(
+            "A state is set to the value that it has, or its dynamics compute it without regard to what actions set. "
+            "What an action does not set stays, so that an action that only keeps layers below from acting sets "
+            "nothing. Beside actions that change the state, keep: {speed: speed} is not reported: it says that the "
+            "state stays. Where there is one behavior, such an action is the same as no action."
+        ),
+        example="behaviors:\n  stop:\n    actions:\n      halt: {speed: speed}",
+        mend="behaviors:\n  stop:\n    actions:\n      halt: {speed: 0}",
+    ),
+    _warning(
+        code="BB204",
+        title="two actions that do the same",
+        explanation=(
+            "Two actions of a behavior set the same state to the same values. A design that uses one is as good as a "
+            "design that uses the other, and the search is larger for nothing; often one of them was copied and not "
+            "changed."
+        ),
+        example="behaviors:\n  stop:\n    actions:\n      halt: {speed: 0}\n      push: {speed: 0}",
+        mend="behaviors:\n  stop:\n    actions:\n      halt: {speed: 0}\n      push: {speed: 1}",
+    ),
+    _warning(
+        code="BB205",
+        title="cells that no rule matches",
+        explanation=(
+            "Cells that no rule matches are open: bbsd design fills them, and a spec with them cannot be evaluated. "
+            "Rules that leave cells open say so, by otherwise: open or do: open; where nothing is to be done in the "
+            "other cells, they end with otherwise: no action."
+        ),
+        example="behaviors:\n  stop:\n    rules:\n      - when: {reached: true}\n        do: halt",
+        mend=(
+            "behaviors:\n  stop:\n    rules:\n      - when: {reached: true}\n        do: halt\n"
+            "      - otherwise: no action"
+        ),
+    ),
+    _warning(
+        code="BB206",
+        title="robots that cannot differ",
+        explanation=(
+            "Several robots start alike, carry the same design, and nothing that they sense or do is drawn or depends "
+            "on which robot it is, so that they do the same in every step. One robot would show the same."
+        ),
+        example="environment:\n  robots: 3\n  state:\n    height: 2",
+        mend="environment:\n  robots: 3\n  state:\n    height: 2 + 0.1 * robot",
+    ),
+    _warning(
+        code="BB208",
+        title="a reward term that no behavior can change",
+        explanation=(
+            "What the term adds up to in an episode does not depend on what any behavior does, neither at once nor "
+            "later, nor do behaviors decide when an episode ends. It is the same for all designs, and selects nothing. "
+            "A price for each step, such as time: -1, has a meaning where the environment ends episodes early."
+        ),
+        example="environment:\n  world:\n    wind: 0\n  dynamics:\n    wind: wind + 1\nreward:\n  calm: -abs(wind)",
+        mend="reward:\n  calm: -abs(speed)",
+    ),
+    _warning(
+        code="BB209",
+        title="a condition that never holds, or always",
+        explanation=(
+            "Whatever the values compared in it, a behavior would never be excited, an episode would never end, or "
+            "would end after its first step. Often and stands for or, or a sign points the wrong way."
+        ),
+        example="behaviors:\n  stop:\n    excited: height < 2 and height > 3",
+        mend="behaviors:\n  stop:\n    excited: height < 2 or height > 3",
+    ),
 )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import Severity, escape, render_json, render_text
 from bbsd.report.numbers import count
+from bbsd.report.open import open_line, open_list, open_plain
 from bbsd.report.size import size_text
 
 if TYPE_CHECKING:
@@ -35,15 +36,18 @@ class Checked:
         return sum(each.severity is severity for each in self.diagnoses)
 
 
-def checked_text(checked: Checked, *, color: bool, strict: bool) -> str:
-    """Return the diagnoses of a spec and a verdict; where warnings count as mistakes, a spec with some is not ok."""
+def checked_text(checked: Checked, *, color: bool, strict: bool, whole: bool = False) -> str:
+    """Return the diagnoses of a spec, a verdict, and what is open, in a line or whole.
+
+    Where warnings count as mistakes, a spec with some is not ok.
+    """
     texts = checked.texts
     diagnoses = [
         render_text(each, texts.line(each.place), color, texts.corrected_lines(each))
         for each in checked.diagnoses
     ]
     made = [_made_text(checked.file, each) for each in checked.made]
-    return "\n\n".join([*made, *diagnoses, _verdict(checked, strict=strict)])
+    return "\n\n".join([*made, *diagnoses, _verdict(checked, strict=strict) + _open(checked, whole=whole)])
 
 
 def _made_text(file: str, made: Made) -> str:
@@ -52,6 +56,14 @@ def _made_text(file: str, made: Made) -> str:
     shown = [f"    {sign} | {escape(line)}" for sign, line in lines if line.strip()]
     place = f"{escape(file)}:{made.diagnosis.place.line}"
     return "\n".join([f"{place}: corrected[{made.diagnosis.code}]: {escape(made.diagnosis.message)}", *shown])
+
+
+def _open(checked: Checked, *, whole: bool) -> str:
+    if checked.meaning is None:
+        return ""
+    text = open_list(checked.meaning) if whole else open_line(checked.meaning)
+    lines = (text if whole else f"open: {text}").splitlines() if text else []
+    return "".join(f"\n  {line}" for line in lines)
 
 
 def _verdict(checked: Checked, *, strict: bool) -> str:
@@ -71,7 +83,7 @@ def count_text(diagnoses: Iterable[Diagnosis]) -> str:
 
 
 def checked_plain(specs: Sequence[Checked]) -> dict[str, Any]:
-    """Return the diagnoses of all specs, and of each spec how many there are."""
+    """Return the diagnoses of all specs, and of each spec how many there are and what is open."""
     return {
         "diagnoses": render_json(each for checked in specs for each in checked.diagnoses),
         "specs": [_plain(checked) for checked in specs],
@@ -84,4 +96,5 @@ def _plain(checked: Checked) -> dict[str, Any]:
         "mistakes": checked.count(Severity.MISTAKE),
         "warnings": checked.count(Severity.WARNING),
         "corrected": len(checked.made),
+        "open": None if checked.meaning is None else open_plain(checked.meaning),
     }

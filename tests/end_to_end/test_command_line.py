@@ -84,6 +84,7 @@ def test_a_file_that_is_not_there_is_a_mistake_in_any_command(command, tmp_path)
 
 def test_a_spec_without_mistakes_is_sized_up():
     expected = f"{SPEC}: ok (2 behaviors, 3 open cells, 2 open layers, search space 10^1.7)\n"
+    expected += "  open: all cells of heat; the structure (2 layers)\n"
     assert bbsd("check", SPEC) == (0, expected, "")
 
 

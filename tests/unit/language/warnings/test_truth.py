@@ -1,0 +1,64 @@
+"""What warnings say of made-up specs is true of their episodes, and nothing in a spec makes looking for them fail."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bbsd.compiler import compile_meaning
+from bbsd.compiler.details import traced_columns
+from bbsd.language.meaning import elaborate
+from bbsd.language.models import Spec
+from bbsd.language.warnings.finding import warnings_of
+from tests.interpreter.made_up import specs
+from tests.interpreter.made_up_designs import random_agents
+
+if TYPE_CHECKING:
+    from bbsd.compiler.team import Team
+    from bbsd.evaluation import Agents
+    from bbsd.language.meaning import Meaning
+
+AGENTS = 4
+
+
+@pytest.mark.slow
+@given(specs(most_robots=3), st.integers(0, 100))
+@settings(max_examples=60, deadline=None)
+def test_what_is_said_of_a_spec_is_true_of_its_episodes(data: dict[str, object], seed: int) -> None:
+    meaning, _ = elaborate(Spec.model_validate(data), 1)
+    if meaning is None:
+        return
+    found = [(each.code, path) for path, each in warnings_of(meaning)]
+    terms = {path[1] for code, path in found if code == "BB208"}
+    never = {path[1] for code, path in found if code == "BB209" and path[0] == "behaviors"}
+    are_alike = any(code == "BB206" for code, _ in found)
+    if not (terms or never or are_alike):
+        return
+    problem = compile_meaning(meaning, compiled=False)
+    agents = random_agents(problem, AGENTS, seed)
+    team = problem.assemble(agents.pools, agents.members, 1)
+    outcome = team.detailed_episode(np.repeat(agents.keys[:1], AGENTS), agents.structures)
+    for index, term in enumerate(meaning.episode.reward):
+        totals = outcome.terms[:, index]
+        assert term not in terms or (np.isnan(totals) | (totals == totals[0])).all()
+    for index, module in enumerate(meaning.episode.modules):
+        assert module.name not in never or not outcome.control[:, index].any()
+    if are_alike:
+        assert_robots_are_alike(meaning, team, agents)
+
+
+def assert_robots_are_alike(meaning: Meaning, team: Team, agents: Agents) -> None:
+    columns = traced_columns(meaning)
+    record = np.zeros((meaning.spec.environment.steps, len(columns)))
+    team.traced_episode(int(agents.keys[0]), agents.structures[0], record)
+    of_robots: dict[object, list[int]] = {}
+    for index, (content, slot) in enumerate(columns):
+        if slot.robot is not None:
+            of_robots.setdefault((content, slot.variable), []).append(index)
+    for first, *others in of_robots.values():
+        for other in others:
+            np.testing.assert_array_equal(record[:, first], record[:, other])
