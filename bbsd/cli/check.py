@@ -85,9 +85,7 @@ def check(
         raise typer.BadParameter("give a SPEC, or --describe CODE")
 
 
-def _check(
-    specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bool, every_hole: bool
-) -> None:
+def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bool, every_hole: bool) -> None:
     from bbsd.report.checked import checked_plain, checked_text
 
     checked = [_checked(spec, fixing) for spec in specs]

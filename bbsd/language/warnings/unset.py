@@ -27,8 +27,8 @@ def unset_values(meaning: Meaning, uses: Uses) -> Iterator[LocatedMistake]:
     What is drawn at the start, or differs from robot to robot, is no constant.
     """
     environment = meaning.spec.environment
-    behaviors = meaning.spec.behaviors.values()
-    targets = {target for each in behaviors for sets in each.actions.values() for target in sets}
+    modules = meaning.episode.modules
+    targets = {name for module in modules for sets in module.actions.values() for name, _ in sets}
     for block in ("world", "state"):
         for name in getattr(environment, block):
             if name in uses.live and name not in targets | environment.dynamics.keys():

@@ -6,9 +6,10 @@ from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.tree import functions_called, names_used
+from bbsd.expression.syntax.tree import Expr, functions_called, names_used
 from bbsd.language.base import Part
 from bbsd.language.field_types import Expression, signature
+from bbsd.language.meaning.setting.targets import Target, read_target
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -63,7 +64,10 @@ def _owned(spec: Spec) -> Iterator[tuple[str, object, frozenset[str]]]:
             yield name, value, frozenset(parameters)
     for behavior in spec.behaviors.values():
         for sets in behavior.actions.values():
-            yield from ((target, value, frozenset()) for target, value in sets.items())
+            for key, value in sets.items():
+                target = read_target(key)
+                if isinstance(target, Target):
+                    yield target.name, (value, *target.indices), frozenset()
 
 
 def _roots(spec: Spec, functions: frozenset[str]) -> frozenset[str]:
@@ -94,24 +98,26 @@ def _names_in(
     value: object, functions: frozenset[str], hidden: frozenset[str] = frozenset()
 ) -> frozenset[str]:
     """Return the names that the expressions in a part of a spec use, and which of its functions they call."""
-    trees = [each.tree for each in expressions_below(value)]
+    trees = [*trees_below(value)]
     names = frozenset[str]().union(*(names_used(tree, hidden) for tree in trees))
     return names | functions.intersection(frozenset[str]().union(*map(functions_called, trees)))
 
 
-def expressions_below(value: object) -> Iterator[Expression]:
+def trees_below(value: object) -> Iterator[Expr]:
     """Yield all expressions in a part of a spec, in order."""
     match value:
         case Expression():
-            yield value
+            yield value.tree
         case Part():
             yield from _all_below(value.values_by_key().values())
         case dict():
             yield from _all_below(value.values())
         case list() | tuple():
             yield from _all_below(value)
+        case _ if isinstance(value, Expr):
+            yield value
 
 
-def _all_below(values: Iterable[object]) -> Iterator[Expression]:
+def _all_below(values: Iterable[object]) -> Iterator[Expr]:
     for value in values:
-        yield from expressions_below(value)
+        yield from trees_below(value)

@@ -81,7 +81,7 @@ def test_what_has_one_reading_is_fixed_in_the_file(tmp_path, capsys):
     told = capsys.readouterr().out
     assert "corrected[BB050]" in told
     assert "    + |   near: 1 if tilted and true else 0  # both" in told
-    assert "ok, 1 corrected" in told
+    assert "1 corrected (" in told
     assert run("check", "--fix", path) == 0
     assert "corrected" not in capsys.readouterr().out
 

@@ -66,3 +66,11 @@ reward: {near: earned}
 """
     state = part.replace("state: null", "state: {push: 0, height: null, speed: null}")
     assert unused(state) == []
+
+
+def test_an_index_in_a_key_of_an_action_is_a_use() -> None:
+    part = (
+        "constants: {place: 1}\nenvironment: {state: {seen: 'list(0 for i in range(3))'}}\n"
+        "behaviors: {stop: {actions: {halt: {'seen[place]': 1}}}}\nreward: {near: max(seen)}"
+    )
+    assert "nothing uses the constant place" not in unused(part)
