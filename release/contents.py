@@ -79,7 +79,7 @@ def source_files(path: Path) -> dict[str, bytes]:
 def check_by_tools(built: Built, folder: Path) -> str:
     """Let the tools of the Python world look at the archives, and return their names; CheckFailed if one objects."""
     run(tool("twine"), "check", "--strict", built.source, built.wheel, folder=folder)
-    run(tool("check-wheel-contents"), built.wheel, folder=folder)
+    run(tool("check-wheel-contents"), built.wheel, folder=ROOT)
     return "twine, check-wheel-contents"
 
 

@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from bbsd.agent.program import Act
     from bbsd.api.acting import Agent
     from bbsd.api.appraising import faults, worth
     from bbsd.api.comparing import compare
@@ -41,6 +42,17 @@ if TYPE_CHECKING:
     from bbsd.api.tracing import trace
     from bbsd.api.watching import runs_in, watch
     from bbsd.api.worlds import env
+    from bbsd.architecture import HolesLeft
+    from bbsd.architecture.shorter import Shorter
+    from bbsd.errors import Diagnosis, SpecError, UsageError
+    from bbsd.evaluation import Evaluation, Interval, Trace
+    from bbsd.explanation import Explanation
+    from bbsd.explanation.comparison import Comparison
+    from bbsd.explanation.faults import Degradations
+    from bbsd.explanation.why import Answer
+    from bbsd.explanation.worth import Worth
+    from bbsd.language.loading import Loaded
+    from bbsd.runs.storage.watching import Watched
 
 HOMES = {
     "bbsd.api.acting": ("Agent",),
@@ -72,18 +84,40 @@ HOMES = {
     "bbsd.api.tidying": ("tidy",),
     "bbsd.api.tracing": ("trace",),
     "bbsd.api.worlds": ("env",),
+    "bbsd.agent.program": ("Act",),
+    "bbsd.architecture": ("HolesLeft",),
+    "bbsd.architecture.shorter": ("Shorter",),
+    "bbsd.errors": ("Diagnosis", "SpecError", "UsageError"),
+    "bbsd.evaluation": ("Evaluation", "Interval", "Trace"),
+    "bbsd.explanation": ("Explanation",),
+    "bbsd.explanation.comparison": ("Comparison",),
+    "bbsd.explanation.faults": ("Degradations",),
+    "bbsd.explanation.why": ("Answer",),
+    "bbsd.explanation.worth": ("Worth",),
+    "bbsd.language.loading": ("Loaded",),
+    "bbsd.runs.storage.watching": ("Watched",),
 }
 """Where each name is from."""
 
 __all__ = [
+    "Act",
     "Agent",
+    "Answer",
     "AnyProgress",
     "AnySpec",
     "BadArgument",
     "BestSoFar",
+    "Comparison",
+    "Degradations",
     "Designed",
+    "Diagnosis",
+    "Evaluation",
+    "Explanation",
     "Export",
+    "HolesLeft",
     "Interrupted",
+    "Interval",
+    "Loaded",
     "NoBudget",
     "NoEnvironment",
     "NotWritten",
@@ -91,7 +125,13 @@ __all__ = [
     "Page",
     "Progress",
     "SearchProgress",
+    "Shorter",
     "Spaces",
+    "SpecError",
+    "Trace",
+    "UsageError",
+    "Watched",
+    "Worth",
     "check",
     "compare",
     "compile",

@@ -5,15 +5,19 @@ from pathlib import Path
 from typing import assert_type
 
 import bbsd
-from bbsd.agent.program import Act
-from bbsd.api import AnyProgress, Designed
-from bbsd.errors import Diagnosis
-from bbsd.evaluation import Evaluation, Trace
-from bbsd.explanation import Explanation
-from bbsd.explanation.comparison import Comparison
-from bbsd.explanation.worth import Worth
-from bbsd.language.loading import Loaded
-from bbsd.runs.storage.watching import Watched
+from bbsd.api import (
+    Act,
+    AnyProgress,
+    Comparison,
+    Designed,
+    Diagnosis,
+    Evaluation,
+    Explanation,
+    Loaded,
+    Trace,
+    Watched,
+    Worth,
+)
 
 
 def show(progress: AnyProgress) -> None:
@@ -29,21 +33,21 @@ assert_type(designed, Designed)
 assert_type(designed.evaluation, Evaluation)
 assert_type(designed.structure, tuple[str, ...])
 
-evaluation = bbsd.evaluate(designed.folder, episodes=100)
+evaluation = bbsd.evaluate(designed, episodes=100)
 assert_type(evaluation, Evaluation)
 assert_type(evaluation.mean, float)
 assert_type(evaluation.ci95, tuple[float, float])
 assert_type(evaluation.reward_terms, dict[str, float])
 
-agent = bbsd.Agent(designed.architecture)
+agent = bbsd.Agent(designed)
 assert_type(agent, bbsd.Agent)
 act = agent.act({"position": 3.0})
 assert_type(act, Act)
 assert_type(act.action, str | None)
 assert_type(act.sets, dict[str, float | bool])
 
-assert_type(bbsd.trace(designed.folder, episode="worst"), Trace)
-assert_type(bbsd.explain(designed.folder), Explanation)
-assert_type(bbsd.worth(designed.folder, episodes=50), Worth)
-assert_type(bbsd.compare(designed.folder, designed.architecture, episodes=50), Comparison)
-assert_type(bbsd.watch(designed.folder), Iterator[Watched])
+assert_type(bbsd.trace(designed, episode="worst"), Trace)
+assert_type(bbsd.explain(designed), Explanation)
+assert_type(bbsd.worth(designed, episodes=50), Worth)
+assert_type(bbsd.compare(designed, designed, episodes=50), Comparison)
+assert_type(bbsd.watch("runs/minimal"), Iterator[Watched])

@@ -1,4 +1,4 @@
-"""What each argument of the verbs can be: it is honoured, or refused in words before anything is done."""
+"""What each argument of the verbs can be: it is honored, or refused in words before anything is done."""
 
 from __future__ import annotations
 
@@ -249,7 +249,7 @@ SPECS = ("spec", "design", "other", "a", "b")
 
 
 def checked(**own: Rule) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Return what lets a function take only arguments that it honours; `own` are its own rules, by name.
+    """Return what lets a function take only arguments that it honors; `own` are its own rules, by name.
 
     Raises KeyError at once where an argument has no rule.
     """

@@ -110,7 +110,7 @@ def design(
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         NothingToDesign: the spec has no holes, or is the folder of a run that is finished.
-        BadArgument: an argument is none that can be honoured.
+        BadArgument: an argument is none that can be honored.
         NoBudget: `more` or `within` for the paper's loop.
         FolderInUse: another process writes in the folder.
         FolderError: the folder cannot be written, or not be resumed.

@@ -29,7 +29,7 @@ SEEDS = 2
 
 
 class Places(NamedTuple):
-    """Conditions, none of which holds in any other situation that was met; `left` situations fulfil none of them."""
+    """Conditions, none of which holds in any other situation that was met; `left` situations fulfill none of them."""
 
     where: tuple[str, ...]
     left: int

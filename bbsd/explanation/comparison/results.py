@@ -29,7 +29,7 @@ class CommandDifference:
     where: tuple[str, ...]
     """Conditions, none of which holds in any other situation that was met; empty for rare differences."""
     left: int
-    """Situations that were met and fulfil none of the conditions."""
+    """Situations that were met and fulfill none of the conditions."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -114,7 +114,7 @@ def _command(command: Command) -> str:
 def _with_places(what: str, where: Sequence[str], left: int = 0) -> Text:
     """Return what happens, and below it where: a few conditions, each on lines of its own.
 
-    `left` situations fulfil none of the conditions.
+    `left` situations fulfill none of the conditions.
     """
     text = Text(escape(what))
     for index, condition in enumerate(where[:MOST_PLACES]):

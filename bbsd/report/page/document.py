@@ -39,7 +39,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
 """
 END = "})();\n"
 UPLOT = "uplot-1.6.32"
-"""The folder of the charts' library, with its licence."""
+"""The folder of the charts' library, with its license."""
 MOST_BYTES = 1_900_000
 """The size of a page at most; longer replays are cut."""
 UNSAFE = re.compile("[<>&\u2028\u2029]")
