@@ -215,4 +215,14 @@ EXPRESSION_KINDS = (
         example="constants:\n  limit: 010\nreward:\n  near: limit",
         mend="constants:\n  limit: 10\nreward:\n  near: limit",
     ),
+    DiagnosisKind(
+        code="BB141",
+        title="a draw with impossible numbers",
+        explanation=(
+            "A probability is a number from 0 to 1, no percentage; a standard deviation is not negative; uniform and "
+            "integers draw from the smaller of their two numbers up to the larger one."
+        ),
+        example="environment:\n  dynamics:\n    speed: 1 if chance(20) else 0",
+        mend="environment:\n  dynamics:\n    speed: 1 if chance(0.2) else 0",
+    ),
 )

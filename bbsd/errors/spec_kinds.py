@@ -369,4 +369,15 @@ SPEC_KINDS = (
         example="environment:\n  sensors:\n    place: values(round(height), 0, robot + 1)",
         mend="environment:\n  sensors:\n    place: values(round(height), 0, 3)",
     ),
+    DiagnosisKind(
+        code="BB140",
+        title="a block at the wrong depth",
+        explanation=(
+            "What belongs to a block is indented below its key, and what stands beside it begins in the column of that "
+            "key. An empty block with its entries beside it, or a block in its neighbor, is probably a matter of a "
+            "few blanks; all else is then read as it is meant."
+        ),
+        example="behaviors:\n  stop:\n    actions:\n      rules:\n        - otherwise: halt",
+        mend="behaviors:\n  stop:\n    rules:\n      - otherwise: halt",
+    ),
 )

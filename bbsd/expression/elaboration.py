@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors import did_you_mean
 from bbsd.expression.aggregates import aggregate
 from bbsd.expression.checks import has_arguments, require_finite, require_kind, require_static_whole
+from bbsd.expression.drawing import impossible_draw
 from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
@@ -287,6 +288,8 @@ def _draw(expr: Call, scope: Scope) -> Node:
     operands = _numbers(expr, DRAWS[expr.function][0], scope)
     if any(node.kind is Kind.UNKNOWN for node in operands):
         return scope.graph.unknown
+    if (wrong := impossible_draw(expr, [scope.static_value(node) for node in operands])) is not None:
+        return scope.mistake("BB141", wrong.message, wrong.span, wrong.advice, wrong.correction)
     word = _word_of_draw(scope.draws, expr.span, scope.robot or 0)
     return scope.graph.draw(expr.function, word, tuple(operands))
 

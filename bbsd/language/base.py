@@ -57,11 +57,11 @@ class Part(BaseModel):
     @classmethod
     def _holds_block(cls, key: str) -> bool:
         field = cls.fields_by_key().get(key)
-        return field is not None and not field.is_required() and _is_block(field.annotation)
+        return field is not None and not field.is_required() and holds_block(field.annotation)
 
 
-def _is_block(annotation: object) -> bool:
+def holds_block(annotation: object) -> bool:
     """Return whether one of the forms of a key's value is a mapping, a list or a part."""
     if isinstance(annotation, type) and not get_args(annotation):
         return issubclass(annotation, Part)
-    return get_origin(annotation) in (dict, list) or any(map(_is_block, get_args(annotation)))
+    return get_origin(annotation) in (dict, list) or any(map(holds_block, get_args(annotation)))

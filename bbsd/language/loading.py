@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 from bbsd.errors import Diagnosis, Severity, SpecError
 from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
-from bbsd.language.correcting import placed
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
+from bbsd.language.meant.placing import placed
+from bbsd.language.meant.understanding import as_meant
 from bbsd.language.overrides import FILE as OVERRIDES
 from bbsd.language.overrides import overrides_source, read_overrides, with_overrides
 from bbsd.language.recovery import recover
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
     from bbsd.errors import Place
+    from bbsd.expression.scope import Path
     from bbsd.language.lineage import Lineage
     from bbsd.language.models import Spec
     from bbsd.language.overrides import Override
@@ -65,6 +67,15 @@ class Loaded:
         return f"<Loaded {self.source.file}: {self.spec.name}>"
 
 
+@dataclass(frozen=True, slots=True)
+class _Examined:
+    """What plain data mean, None where they have mistakes, what was found, and values that YAML need not explain."""
+
+    meaning: Meaning | None = None
+    found: tuple[LocatedMistake, ...] = ()
+    explained: frozenset[Path] = frozenset()
+
+
 def load(source: Source, *, seed: int = 0, overrides: Sequence[str] = ()) -> Loaded:
     """Read, validate and elaborate a spec, its constants drawn from the seed.
 
@@ -89,13 +100,16 @@ def _loaded(files: Lineage, seed: int, overrides: Sequence[str]) -> Loaded:
     assignments = read_overrides(overrides)
     data = with_overrides(files.data, assignments, overrides)
     is_small = files.characters <= MAX_EXAMINED_TWICE
-    spec, meaning, found = _examine(data, seed, is_small=is_small) if files.is_readable else (None, None, [])
-    if spec is None or meaning is None or files.mistakes:
-        diagnoses = _diagnoses(found, files, data, assignments)
+    examined = _Examined()
+    if files.is_readable and isinstance(data, dict):
+        examined = _examine(data, files, seed, is_small=is_small)
+    meaning = examined.meaning
+    if meaning is None or files.mistakes:
+        diagnoses = _diagnoses(examined.found, files, data, assignments, examined.explained)
         if in_overrides := [diagnosis for diagnosis in diagnoses if diagnosis.place.file == OVERRIDES]:
             raise SpecError(_capped(in_overrides), overrides_source(overrides))
         raise files.error(_capped(diagnoses))
-    return Loaded(files.source, files, tuple(overrides), data, meaning.spec, meaning, tuple(found))
+    return Loaded(files.source, files, tuple(overrides), data, meaning.spec, meaning, examined.found)
 
 
 def check(source: Source, seed: int = 0, *, warnings: bool = False) -> tuple[Diagnosis, ...]:
@@ -107,16 +121,27 @@ def check(source: Source, seed: int = 0, *, warnings: bool = False) -> tuple[Dia
     return loaded.warnings if warnings else ()
 
 
-def _examine(
-    data: Data, seed: int, *, is_small: bool
-) -> tuple[Spec | None, Meaning | None, list[LocatedMistake]]:
-    """Return the model and the meaning of plain data, and what was found: where they are large, of form alone."""
+def _examine(data: dict[str, Data], files: Lineage, seed: int, *, is_small: bool) -> _Examined:
+    """Return the meaning of plain data, and what was found: where they are large, of form alone.
+
+    Where their form is wrong in a way of which is known what is meant, that is told, and all else is found in what is
+    meant.
+    """
     spec, errors = validate(data)
     if spec:
         meaning, found = elaborate(spec, seed)
-        return spec, meaning, list(found)
-    further = _mistakes_of_meaning(data, errors, seed) if is_small else []
-    return None, None, [*form_mistakes(errors, data), *further]
+        return _Examined(meaning, found)
+    reading = as_meant(data, files)
+    if reading.told:
+        spec, errors = validate(reading.data)
+    if spec:
+        further = elaborate(spec, seed)[1]
+        mistakes = [each for each in further if severity_of(each[1].code) is Severity.MISTAKE]
+    else:
+        mistakes = form_mistakes(errors, reading.data)
+        mistakes += _mistakes_of_meaning(reading.data, errors, seed) if is_small else []
+    elsewhere = ((reading.origin(path), mistake) for path, mistake in mistakes)
+    return _Examined(None, (*reading.told, *elsewhere), frozenset(reading.explained))
 
 
 def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) -> list[LocatedMistake]:
@@ -133,14 +158,18 @@ def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) 
 
 
 def _diagnoses(
-    mistakes: Iterable[LocatedMistake], files: Lineage, data: Data, overrides: Sequence[Override]
+    mistakes: Iterable[LocatedMistake],
+    files: Lineage,
+    data: Data,
+    overrides: Sequence[Override],
+    explained: Iterable[Path] = (),
 ) -> list[Diagnosis]:
     """Return all mistakes in the order of the text, then all warnings in that order.
 
     Where the reading of YAML already reported a mistake, there is no other.
     """
-    unreadable = {_start(diagnosis.place) for diagnosis in files.mistakes}
-    diagnoses = [*files.mistakes]
+    diagnoses = [each for each in files.mistakes if not _is_explained(each, files, explained)]
+    unreadable = {_start(diagnosis.place) for diagnosis in diagnoses}
     for path, mistake in mistakes:
         place = _place((path, mistake), files, data, overrides)
         starts = {_start(place), _start(files.place(existing(path, data)))}
@@ -148,6 +177,18 @@ def _diagnoses(
             correction = None if place.file == OVERRIDES else placed(mistake.correction, path, files)
             diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
+
+
+def _is_explained(diagnosis: Diagnosis, files: Lineage, explained: Iterable[Path]) -> bool:
+    """Return whether a mistake of the reading of YAML is one in a value of which something better is told."""
+    for path in explained:
+        document = files.document(path)
+        stretch = document.stretch(path)
+        if stretch is not None and diagnosis.place.file == document.source.file:
+            first, last = map(document.source.line_number, stretch)
+            if first <= diagnosis.place.line <= last:
+                return True
+    return False
 
 
 def _start(place: Place) -> tuple[str, int, int]:

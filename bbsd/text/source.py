@@ -70,6 +70,10 @@ class Source:
         """Return the number, counted from 1, of the line that an offset is on."""
         return bisect_right(self._starts, offset)
 
+    def offset_of(self, number: int) -> int:
+        """Return the offset of the first character of the line of that number, counted from 1."""
+        return self._starts[number - 1]
+
     def line_start(self, offset: int) -> int:
         """Return the offset of the first character of the line that an offset is on."""
         return self._starts[self.line_number(offset) - 1]

@@ -1,0 +1,51 @@
+"""Whether the numbers of a draw are possible."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from bbsd.expression.syntax.mistakes import Rewriting
+from bbsd.expression.syntax.text import number_text, render
+from bbsd.expression.syntax.tree import Call, Number, Span
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+WHOLE_PERCENT = 100
+
+
+class ImpossibleDraw(NamedTuple):
+    """What is wrong with a draw, and what is probably meant."""
+
+    message: str
+    span: Span
+    advice: str
+    correction: Rewriting | None
+
+
+def impossible_draw(draw: Call, values: Sequence[float | None]) -> ImpossibleDraw | None:
+    """Return what is wrong with the numbers of a draw, as far as they are the same for the whole run."""
+    match draw.function, values:
+        case "chance", [float(probability)] if not 0 <= probability <= 1:
+            return _chance(draw, probability)
+        case "normal", [_, float(deviation)] if deviation < 0:
+            what = f"a standard deviation is not negative, and this is {deviation:g}"
+            return ImpossibleDraw(what, draw.arguments[1].span, f"write {-deviation:g}", None)
+        case "uniform" | "integers", [float(low), float(high)] if low > high:
+            first, second = draw.arguments
+            new = f"{draw.function}({render(second)}, {render(first)})"
+            what = f"{draw.function} draws from the smaller number up to the larger one, and {high:g} is below {low:g}"
+            return ImpossibleDraw(what, draw.span, f"write {new}", Rewriting(new, draw.span))
+    return None
+
+
+def _chance(draw: Call, probability: float) -> ImpossibleDraw:
+    (argument,) = draw.arguments
+    what = f"a probability is between 0 and 1, and this is {probability:g}"
+    if not (isinstance(argument, Number) and 1 < probability <= WHOLE_PERCENT):
+        return ImpossibleDraw(what, argument.span, "", None)
+    new = number_text(probability / WHOLE_PERCENT)
+    correction = Rewriting(new, argument.span, is_certain=False)
+    return ImpossibleDraw(
+        what, argument.span, f"write {new} where {probability:g} percent are meant", correction
+    )

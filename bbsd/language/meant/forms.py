@@ -1,0 +1,300 @@
+"""Mappings where lists are written, lists where mappings are, and single values for either."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
+from bbsd.expression.syntax.parsing import NAME
+from bbsd.language.field_types import scalar_text
+from bbsd.language.keys import fields_at
+from bbsd.language.meant.layout import begins_line, correction, lines, stretch
+from bbsd.language.validation import named
+from bbsd.text.nodes import Mapping, Scalar, Sequence
+
+if TYPE_CHECKING:
+    from bbsd.errors import Correction, Edit
+    from bbsd.expression.scope import Path
+    from bbsd.language.meant.reading import Reading
+    from bbsd.text import Data
+
+NAMED = (
+    "constants",
+    "state",
+    "world",
+    "sensors",
+    "definitions",
+    "dynamics",
+    "reward",
+    "behaviors",
+    "actions",
+)
+
+
+def named_blocks(reading: Reading) -> list[Path]:
+    """Return the paths of blocks whose keys are names of the spec's own."""
+    inner = ("world", "state", "definitions", "dynamics", "sensors")
+    return [
+        ("constants",),
+        *(("environment", key) for key in inner),
+        ("reward",),
+        ("behaviors",),
+        *(("behaviors", name, "actions") for name in reading.mapping(("behaviors",))),
+    ]
+
+
+def lists_of_named(reading: Reading) -> None:
+    """Read a list of `- name: ...` or `- key: ...` as the mapping that it should be."""
+    for path in named_blocks(reading):
+        value = reading.at(path)
+        if not isinstance(value, list) or not value:
+            continue
+        keys = [_key_of_item(item) for item in value]
+        if all(keys) and len(set(keys)) == len(keys):
+            _to_mapping(reading, path, value, [str(key) for key in keys])
+        elif path[-1] == "actions" and all(isinstance(item, str) and NAME.match(item) for item in value):
+            _actions_without_effects(reading, path, [str(item) for item in value])
+        elif path == ("reward",) and all(isinstance(item, str | int | float) for item in value):
+            _terms_without_names(reading, path, value)
+
+
+def _key_of_item(item: Data) -> str | None:
+    """Return the name of an item: under `name`, or its only key."""
+    if not isinstance(item, dict):
+        return None
+    if isinstance(item.get("name"), str) and len(item) > 1:
+        return str(item["name"])
+    return next(iter(item)) if len(item) == 1 else None
+
+
+def _to_mapping(reading: Reading, path: Path, items: list[Data], keys: list[str]) -> None:
+    edits = _without_dashes(reading, path, items)
+    message = f"{named(path)} is no list: each of its entries is a key, the name followed by a colon"
+    reading.tell(
+        (*path, 0), "BB022", message, f"write {keys[0]}:", correction(reading.document(path), edits), WHOLE
+    )
+    merged: dict[str, Data] = {}
+    parts: list[tuple[Path, Path]] = []
+    for at, (item, key) in enumerate(zip(items, keys, strict=True)):
+        if not isinstance(item, dict):
+            continue
+        is_named = len(item) > 1
+        merged[key] = (
+            {name: value for name, value in item.items() if name != "name"} if is_named else item[key]
+        )
+        parts.append(((key,), (at,) if is_named else (at, key)))
+    reading.replace(path, merged, parts)
+
+
+def _without_dashes(reading: Reading, path: Path, items: list[Data]) -> list[Edit] | None:
+    """Return the edits that make entries of the items of a list in block style."""
+    document, node = reading.document(path), reading.node(path)
+    if not isinstance(node, Sequence) or node.flow:
+        return None
+    source, edits = document.source, []
+    for item, value in zip(node.items, items, strict=True):
+        dash = source.text.rfind("-", source.line_start(item.start), item.start)
+        if not isinstance(item, Mapping) or item.flow or dash < 0 or not isinstance(value, dict):
+            return None
+        first = next(iter(item.entries.values()))
+        if len(value) == 1:
+            edits.append(source.edit(dash, first.key.start, ""))
+        elif first.key.text == "name":
+            edits.append(source.edit(dash, first.value.end, f"{value['name']}:"))
+        else:
+            return None
+    return edits
+
+
+def _actions_without_effects(reading: Reading, path: Path, names: list[str]) -> None:
+    state = next(iter(reading.mapping(("environment", "state"))), "speed")
+    message = "actions is no list: each action is a name and what it sets"
+    reading.tell(
+        path,
+        "BB022",
+        message,
+        f"write {names[0]}: {{{state}: ...}}, with the value that it sets",
+        None,
+        WHOLE,
+    )
+    reading.replace(path, {name: {} for name in names})
+
+
+def _terms_without_names(reading: Reading, path: Path, items: list[Data]) -> None:
+    node, document = reading.node(path), reading.document(path)
+    edits: list[Edit] | None = None
+    if isinstance(node, Sequence) and not node.flow:
+        source = document.source
+        dashes = [source.text.rfind("-", source.line_start(item.start), item.start) for item in node.items]
+        edits = [
+            source.edit(dash, item.start, f"term_{at}: ")
+            for at, (dash, item) in enumerate(zip(dashes, node.items, strict=True), 1)
+        ]
+    message = "reward is no list: each of its terms has a name"
+    reading.tell(path, "BB022", message, "write term: value", correction(document, edits), WHOLE)
+    reading.replace(
+        path,
+        {f"term_{at}": item for at, item in enumerate(items, 1)},
+        [((f"term_{at}",), (at - 1,)) for at in range(1, len(items) + 1)],
+    )
+
+
+def single_reward(reading: Reading) -> None:
+    """Read a reward that is one expression as its only term."""
+    value, path = reading.at(("reward",)), ("reward",)
+    text = scalar_text(value)
+    if text is None or not text.strip():
+        return
+    node, document, key = reading.node(path), reading.document(path), reading.key(path)
+    edits = None
+    if isinstance(node, Scalar) and key is not None:
+        edits = [document.source.edit(node.start, node.start, "\n  term: ")]
+        blank = re.search(r" *\Z", document.source.text[key.end : node.start])
+        if blank:
+            start = node.start - len(blank[0])
+            edits = [document.source.edit(start, node.start, "\n  term: ")]
+    message = "reward consists of terms, each with a name, which are summed at each step"
+    reading.tell(
+        path, "BB022", message, f"write a name before it: term: {text}", correction(document, edits), WHOLE
+    )
+    reading.replace(path, {"term": value}, [(("term",), ())])
+
+
+def mapping_of_rules(reading: Reading) -> None:
+    """Read `rules` that are one mapping of `when`, `do` and `otherwise` as a list of rules."""
+    for name in [*reading.mapping(("behaviors",))]:
+        path: Path = ("behaviors", name, "rules")
+        value = reading.at(path)
+        if not isinstance(value, dict) or not value or not set(value) <= {"when", "do", "otherwise"}:
+            continue
+        rule = {key: item for key, item in value.items() if key != "otherwise"}
+        items: list[Data] = [
+            part for part in (rule, {k: v for k, v in value.items() if k == "otherwise"}) if part
+        ]
+        edits = _with_dashes(reading, path, value)
+        message = "rules must be a list of rules, not a mapping: each rule begins with a dash"
+        advice = "write - when: ..., and below it do: ..."
+        reading.tell(path, "BB022", message, advice, correction(reading.document(path), edits))
+        parts: list[tuple[Path, Path]] = [
+            ((at, key), (key,)) for at, item in enumerate(items) if isinstance(item, dict) for key in item
+        ]
+        reading.replace(path, items, parts)
+
+
+def _with_dashes(reading: Reading, path: Path, value: dict[str, Data]) -> list[Edit] | None:
+    source = reading.document(path).source
+    edits: list[Edit] = []
+    began = False
+    for key in value:
+        own = stretch(reading, (*path, key))
+        key_node = reading.key((*path, key))
+        if own is None or key_node is None:
+            return None
+        for offset, line in lines(source, *own):
+            if not line.strip():
+                continue
+            is_first = offset == own[0] and (key == "otherwise" or not began)
+            at = key_node.start if is_first else offset
+            edits.append(source.edit(at, at, "- " if is_first else "  "))
+        began = True
+    return edits
+
+
+def unordered_structure(reading: Reading) -> None:
+    """Read a structure that is a mapping with numbers, or one text, as the list that it should be."""
+    path: Path = ("structure",)
+    value = reading.at(path)
+    names = _ordered_names(value, [*reading.mapping(("behaviors",)), "open"])
+    if names is None:
+        return
+    node, document, key = reading.node(path), reading.document(path), reading.key(path)
+    listed = f"[{', '.join(names)}]"
+    written: Correction | Rewriting | None = None
+    if key is not None and isinstance(node, Mapping | Scalar):
+        source = document.source
+        end = max(key.end, node.end if not isinstance(node, Mapping) or node.flow else _last(node))
+        written = correction(document, [source.edit(key.start, end, f"structure: {listed}")])
+    message = "structure must be a list of behaviors, from the highest layer down"
+    is_below = isinstance(node, Mapping) and not node.flow
+    span = KEY if is_below else WHOLE
+    reading.tell(path, "BB022", message, f"a list is written in brackets: {listed}", written, span)
+    reading.explained.add(reading.origin(path))
+    reading.replace(path, [*names])
+
+
+def _last(node: Mapping) -> int:
+    value = [*node.entries.values()][-1].value
+    return value.end
+
+
+def _ordered_names(value: Data, known: list[str]) -> list[str] | None:
+    """Return the layers that something else than a list says, from the highest down."""
+    match value:
+        case dict() if value and all(re.fullmatch(r"\d+", key) for key in value):
+            names = [str(value[key]) for key in sorted(value, key=int)]
+        case dict() if value and all(isinstance(rank, int | float) for rank in value.values()):
+            names = sorted(value, key=lambda key: float(str(value[key])))
+        case str():
+            names = re.split(r"\s*(?:,|>|->|;|\s)\s*", value.strip())
+        case _:
+            return None
+    return names if all(name in known for name in names) else None
+
+
+def nameless_actions(reading: Reading) -> None:
+    """Read what stands where actions have their names, and sets state, as one action without a name."""
+    state = reading.mapping(("environment", "state"))
+    for name in [*reading.mapping(("behaviors",))]:
+        path: Path = ("behaviors", name, "actions")
+        effects = {
+            key: value
+            for key, value in reading.mapping(path).items()
+            if key in state and not isinstance(value, dict | list)
+        }
+        if not effects or len(effects) != len(reading.mapping(path)):
+            continue
+        first = next(iter(effects))
+        shown = ", ".join(f"{key}: {scalar_text(value) or ''}" for key, value in effects.items())
+        new = f"set_{first}"
+        document = reading.document(path)
+        edits: list[Edit] = []
+        for key in effects:
+            node, key_node = reading.node((*path, key)), reading.key((*path, key))
+            if key_node is None or node is None or not begins_line(document.source, key_node.start):
+                edits = []
+                break
+            indent = " " * (key_node.start - document.source.line_start(key_node.start))
+            head = f"{new}:\n{indent}  " if key == first else "  "
+            edits.append(document.source.edit(key_node.start, key_node.start, head))
+        message = f"an action's name is missing: {first} is what an action sets, not its name"
+        reading.tell(
+            (*path, first),
+            "BB022",
+            message,
+            f"write a name above it, as in halt: {{{shown}}}",
+            correction(document, edits, is_certain=False),
+        )
+        reading.replace(path, {new: {**effects}}, [((new,), ())])
+
+
+def numbers_of_robots(reading: Reading) -> None:
+    """Read a list of robots as how many they are."""
+    path: Path = ("environment", "robots")
+    value = reading.at(path)
+    if isinstance(value, list | dict) and value:
+        message = "robots must be a whole number from 1 to 64: how many there are"
+        reading.tell(
+            path,
+            "BB022",
+            message,
+            f"write robots: {len(value)}; a robot's number is robot, from 0 on",
+            Rewriting(str(len(value)), WHOLE, is_certain=False),
+            WHOLE,
+        )
+        reading.replace(path, len(value))
+
+
+def keys_of(path: Path) -> list[str]:
+    """Return the keys that the language has at a path."""
+    return [*(fields_at(path) or ())]

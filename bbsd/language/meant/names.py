@@ -1,0 +1,151 @@
+"""Names that cannot be names, and keys of dynamics that say a derivative or one robot's value."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from bbsd.expression.syntax.mistakes import KEY, Rewriting
+from bbsd.expression.syntax.parsing import NAME
+from bbsd.language.field_types import scalar_text
+from bbsd.language.meant.forms import named_blocks
+from bbsd.language.meant.layout import correction
+from bbsd.text.nodes import Alias, Mapping, Scalar, Sequence
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.expression.scope import Path
+    from bbsd.language.meant.reading import Reading
+    from bbsd.text import Data
+    from bbsd.text.nodes import Node
+
+TIME_STEPS = ("dt", "delta_t", "time_step", "tick")
+RULE = "names are small letters, digits and _, a letter first"
+DERIVATIVES = (
+    r"d_?(?P<name>{0})/dt",
+    r"d(?P<name>{0})_dt",
+    r"(?P<name>{0})_dot",
+    r"(?P<name>{0})'",
+    r"d_(?P<name>{0})",
+    r"dot_(?P<name>{0})",
+)
+NEXT = (
+    r"next_(?P<name>{0})",
+    r"(?P<name>{0})_next",
+    r"(?P<name>{0})_new",
+    r"new_(?P<name>{0})",
+    r"(?P<name>{0})\(t ?\+ ?1\)",
+    r"(?P<name>{0})\[t ?\+ ?1\]",
+)
+
+
+def keys_of_dynamics(reading: Reading) -> None:
+    """Read `dheading/dt: turn`, `next_x: ...` and `x[0]: ...` in dynamics as the next value of that state."""
+    stored = {**reading.mapping(("environment", "state")), **reading.mapping(("environment", "world"))}
+    dynamics: Path = ("environment", "dynamics")
+    for key in [*reading.mapping(dynamics)]:
+        if key in stored or not stored:
+            continue
+        path, any_name = (*dynamics, key), "|".join(map(re.escape, stored))
+        if name := _matched(key, DERIVATIVES, any_name):
+            _derivative(reading, path, name)
+        elif name := _matched(key, (*NEXT, r"(?P<name>{0})\[\s*(?:\d+|r|i|robot)\s*\]"), any_name):
+            message = f"the rule of {name} is the same for every robot: its key is {name}"
+            if "[" not in key:
+                message = f"dynamics say the next value of state: its key is {name}"
+            if isinstance(stored[name], list) or "list(" in str(stored[name]):
+                continue
+            reading.tell(path, "BB024", message, "", Rewriting(name, KEY, is_certain="[" not in key))
+            reading.rename(path, name) if name not in reading.mapping(dynamics) else reading.remove(path)
+
+
+def _matched(key: str, patterns: tuple[str, ...], names: str) -> str | None:
+    return next(
+        (match["name"] for each in patterns if (match := re.fullmatch(each.format(names), key.strip()))), None
+    )
+
+
+def _derivative(reading: Reading, path: Path, name: str) -> None:
+    rate = scalar_text(reading.at(path)) or ""
+    step = _time_step(reading)
+    factor = rate if re.fullmatch(r"[\w.]+(?:\([^()]*\))?", rate) else f"({rate})"
+    text = f"{name} + {step} * {factor}"
+    key, node, document = reading.key(path), reading.node(path), reading.document(path)
+    edits = None
+    if key is not None and isinstance(node, Scalar):
+        edits = [document.source.edit(key.start, node.end, f"{name}: {text}")]
+    message = f"dynamics say the next value of {name}, not its derivative"
+    advice = f"write {name}: {text}" + ("" if step in TIME_STEPS else ", where a step takes 0.1")
+    reading.tell(path, "BB024", message, advice, correction(document, edits, is_certain=False))
+    reading.remove(path)
+    if name not in reading.mapping(path[:-1]):
+        reading.set((*path[:-1], name), text)
+
+
+def _time_step(reading: Reading) -> str:
+    """Return the time of a step: the constant that a spec has for it, else a usual one."""
+    constants = reading.mapping(("constants",))
+    return next((name for name in TIME_STEPS if name in constants), "0.1")
+
+
+def names(reading: Reading) -> None:
+    """Read names with capitals, blanks and dashes as those with _ that they should be, where they are used too."""
+    for path in named_blocks(reading):
+        for old in [*reading.mapping(path)]:
+            new = _with_underscores(old)
+            if NAME.match(old) or "(" in old or new is None or new in reading.mapping(path):
+                continue
+            _rename(reading, path, old, new)
+
+
+def _with_underscores(name: str) -> str | None:
+    new = re.sub(r"[\s\-.]+", "_", re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name.strip())).lower()
+    return new if NAME.match(new) else None
+
+
+def _rename(reading: Reading, path: Path, old: str, new: str) -> None:
+    key, document = reading.key((*path, old)), reading.document((*path, old))
+    edits = []
+    if key is not None:
+        edits = [document.source.edit(key.start, key.end, new)]
+        uses = _uses(document.root, old) if document.root else ()
+        edits += [document.source.edit(start, end, new) for start, end in uses if start != key.start]
+    message = f'"{old}" cannot be a name; {RULE}'
+    reading.tell((*path, old), "BB024", message, f"write {new}", correction(document, edits))
+    reading.rename((*path, old), new)
+    _use_new(reading.data, old, new)
+
+
+def _pattern(old: str) -> re.Pattern[str]:
+    return re.compile(rf"(?<![\w.\-]){re.escape(old)}(?![\w\-]|\s*\()")
+
+
+def _uses(node: Node, old: str) -> Iterator[tuple[int, int]]:
+    """Yield where a name stands in plain texts: as a whole, or as a word of an expression."""
+    match node:
+        case Mapping():
+            for entry in node.entries.values():
+                if entry.key.text == old:
+                    yield entry.key.start, entry.key.end
+                yield from _uses(entry.value, old)
+        case Sequence():
+            for item in node.items:
+                yield from _uses(item, old)
+        case Scalar(style="", text=str()) if node.end - node.start == len(node.text):
+            for match_ in _pattern(old).finditer(node.text):
+                yield node.start + match_.start(), node.start + match_.end()
+        case Alias() | Scalar():
+            return
+
+
+def _use_new(data: Data, old: str, new: str) -> Data:
+    """Replace a name in all texts of data."""
+    if isinstance(data, dict):
+        for key in [*data]:
+            data[key] = _use_new(data[key], old, new)
+    elif isinstance(data, list):
+        data[:] = [_use_new(item, old, new) for item in data]
+    elif isinstance(data, str):
+        return _pattern(old).sub(new, data)
+    return data

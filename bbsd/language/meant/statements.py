@@ -1,0 +1,169 @@
+"""Statements of programming languages where expressions stand, and expressions where cells do."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.text import number_text, render
+from bbsd.expression.syntax.tree import Call, Comparison, Expr, Logical, Name, Number, Truth, Unary
+from bbsd.language.field_types import scalar_text
+from bbsd.language.meant.forms import named_blocks
+from bbsd.language.meant.layout import correction
+from bbsd.text.nodes import Mapping
+
+if TYPE_CHECKING:
+    from bbsd.expression.scope import Path
+    from bbsd.language.meant.reading import Reading
+    from bbsd.text import Data
+
+IF = re.compile(r"(?P<word>if|elif|else if|else)\b\s*(?P<condition>.*)", re.DOTALL)
+OPPOSITE = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "=="}
+
+
+def if_statements(reading: Reading) -> None:
+    """Read `if c: a` and `else: b` below a key as the conditional that they are."""
+    for path in _places_of_expressions(reading):
+        value = reading.at(path)
+        if isinstance(value, dict) and value and all(IF.fullmatch(key) for key in value):
+            text = _conditional(value)
+            if text is not None:
+                _tell_statement(reading, path, value, text)
+    _bare_statements(reading)
+
+
+def _places_of_expressions(reading: Reading) -> list[Path]:
+    places = [(*path, key) for path in named_blocks(reading) for key in reading.mapping(path)]
+    for name in [*reading.mapping(("behaviors",))]:
+        actions: Path = ("behaviors", name, "actions")
+        places += [
+            (*actions, action, effect)
+            for action in reading.mapping(actions)
+            for effect in reading.mapping((*actions, action))
+        ]
+    return [*places, ("environment", "ends")]
+
+
+def _conditional(statement: dict[str, Data]) -> str | None:
+    """Return a statement as a conditional, with 0 for the cases that it leaves out; None where it is none."""
+    text, otherwise = "", ""
+    for key, value in statement.items():
+        match, part = IF.fullmatch(key), scalar_text(value)
+        if match is None or part is None or not reads(part):
+            return None
+        condition = match["condition"].strip().strip(":").strip()
+        if match["word"] == "else":
+            otherwise = part
+        elif reads(condition):
+            text += f"{part} if {condition} else "
+        else:
+            return None
+    return f"{text}{otherwise or '0'}" if text else None
+
+
+def _tell_statement(reading: Reading, path: Path, statement: dict[str, Data], text: str) -> None:
+    document, node, key = reading.document(path), reading.node(path), reading.key(path)
+    edits = None
+    if key is not None and isinstance(node, Mapping) and not node.flow:
+        end = [*node.entries.values()][-1].value.end
+        edits = [document.source.edit(key.end, end, f": {text}")]
+    first = next(iter(statement))
+    is_certain = any(
+        key.strip().startswith("else") and not key.strip().startswith("else if") for key in statement
+    )
+    message = f"{path[-1]} must be an expression, not a statement: a conditional is written x if ... else y"
+    written = correction(document, edits, is_certain=is_certain)
+    reading.tell((*path, first), "BB022", message, f"write {path[-1]}: {text}", written)
+    reading.replace(path, text)
+
+
+def _bare_statements(reading: Reading) -> None:
+    """Read `if c` and `else` that stand among the keys of a block as what the key above them is."""
+
+
+def conditions_as_expressions(reading: Reading) -> None:
+    """Read `when: contact == true` as the mapping from inputs to cells that it should be."""
+    for name in [*reading.mapping(("behaviors",))]:
+        rules = reading.at(("behaviors", name, "rules"))
+        for at in range(len(rules) if isinstance(rules, list) else 0):
+            path: Path = ("behaviors", name, "rules", at, "when")
+            text = reading.at(path)
+            if not isinstance(text, str):
+                continue
+            cells = _cells(text, _inputs(reading, name))
+            message = "when is no expression but a mapping: for each input its cell"
+            example = (
+                "{" + ", ".join(f"{key}: {cell}" for key, cell in (cells or {"input": "cell"}).items()) + "}"
+            )
+            written = Rewriting(example, WHOLE) if cells else None
+            reading.tell(path, "BB022", message, f"write when: {example}", written, WHOLE)
+            if cells:
+                reading.replace(path, {**cells})
+            else:
+                reading.remove((*path[:-2], at))
+                reading.set(path[:-1], {"otherwise": "open"})
+
+
+def _inputs(reading: Reading, behavior: str) -> dict[str, Data]:
+    """Return what a behavior's inputs are cut from, by their names."""
+    inputs = reading.at(("behaviors", behavior, "inputs"))
+    if isinstance(inputs, list):
+        sensors = reading.mapping(("environment", "sensors"))
+        return {str(name): sensors.get(str(name)) for name in inputs}
+    return dict(inputs) if isinstance(inputs, dict) else {}
+
+
+def _cells(text: str, inputs: dict[str, Data]) -> dict[str, str] | None:
+    """Return the cells that a condition asks for, by input; None where it asks for something else."""
+    try:
+        tree = parse(re.sub(r"(?<![<>=!])=(?!=)", "==", text).replace("&&", " and "))
+    except ExpressionError:
+        return None
+    cells: dict[str, str] = {}
+    for part in tree.operands if isinstance(tree, Logical) and tree.operator == "and" else (tree,):
+        found = _cell(part, inputs)
+        if found is None or found[0] in cells:
+            return None
+        cells[found[0]] = found[1]
+    return cells
+
+
+def _cell(part: Expr, inputs: dict[str, Data]) -> tuple[str, str] | None:
+    match part:
+        case Name(name=name) if name in inputs:
+            return name, "true"
+        case Unary(operator="not", operand=Name(name=name)) if name in inputs:
+            return name, "false"
+        case Comparison(operators=("==",), operands=(Name(name=name), Truth(value=value))) if name in inputs:
+            return name, str(value).lower()
+        case Comparison(operators=("==",), operands=(Name(name=name), Name(name=cell))) if name in inputs:
+            return name, cell
+        case Comparison(operators=("==",), operands=(Name(name=name), Number(value=value))) if name in inputs:
+            return name, number_text(value)
+        case Comparison(operators=(operator,), operands=(left, Number(value=value))):
+            cut = _input_of(left, inputs)
+            return None if cut is None else _side(cut, operator, number_text(value))
+    return None
+
+
+def _input_of(number: Expr, inputs: dict[str, Data]) -> str | None:
+    """Return the input that a number is, or that is cut from it."""
+    if isinstance(number, Name) and number.name in inputs:
+        return number.name
+    for name, partition in inputs.items():
+        try:
+            tree = parse(partition) if isinstance(partition, str) else None
+        except ExpressionError:
+            continue
+        if isinstance(tree, Call) and tree.function == "cut" and render(tree.arguments[0]) == render(number):
+            return name
+    return None
+
+
+def _side(name: str, operator: str, bound: str) -> tuple[str, str] | None:
+    if operator == "<":
+        return name, f"below {bound}"
+    return (name, f"from {bound}") if operator == ">=" else None

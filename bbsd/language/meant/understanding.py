@@ -1,0 +1,54 @@
+"""What is meant by data whose form is wrong."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.language.meant.depth import not_indented, too_deep
+from bbsd.language.meant.forms import (
+    lists_of_named,
+    mapping_of_rules,
+    nameless_actions,
+    numbers_of_robots,
+    single_reward,
+    unordered_structure,
+)
+from bbsd.language.meant.keys import other_names, without_place, wrong_block
+from bbsd.language.meant.names import keys_of_dynamics, names
+from bbsd.language.meant.reading import Reading
+from bbsd.language.meant.statements import conditions_as_expressions, if_statements
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bbsd.language.lineage import Lineage
+    from bbsd.text import Data
+
+READINGS: tuple[Callable[[Reading], None], ...] = (
+    not_indented,
+    too_deep,
+    other_names,
+    wrong_block,
+    lists_of_named,
+    without_place,
+    single_reward,
+    mapping_of_rules,
+    unordered_structure,
+    nameless_actions,
+    numbers_of_robots,
+    if_statements,
+    conditions_as_expressions,
+    keys_of_dynamics,
+    names,
+)
+"""What is read as something else, in this order: where blocks stand, then what they are, then what is in them."""
+MAX_CHARACTERS = 300_000
+
+
+def as_meant(data: dict[str, Data], files: Lineage) -> Reading:
+    """Return data as they are meant where their form is wrong in a known way, and what is to be told of it."""
+    reading = Reading.of(data, files)
+    if files.characters <= MAX_CHARACTERS:
+        for read in READINGS:
+            read(reading)
+    return reading
