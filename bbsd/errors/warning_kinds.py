@@ -82,8 +82,26 @@ WARNING_KINDS = (
             "Several robots start alike, carry the same design, and nothing that they sense or do is drawn or depends "
             "on which robot it is, so that they do the same in every step. One robot would show the same."
         ),
-        example="environment:\n  robots: 3\n  state:\n    height: 2",
-        mend="environment:\n  robots: 3\n  state:\n    height: 2 + 0.1 * robot",
+        example="environment:\n  robots: 3\n  state:\n    height: 2\n  dynamics:\n    height: height + speed",
+        mend="environment:\n  robots: 3\n  state:\n    height: 2 + robot\n  dynamics:\n    height: height + speed",
+    ),
+    _warning(
+        code="BB207",
+        title="a cell that can never be the present one",
+        explanation=(
+            "From how the values are computed it follows that a cell of an input never applies: its condition "
+            "contradicts itself, cells before it always apply first, or the value stays within bounds. Of an input "
+            "with one cell left a behavior learns nothing. Where that follows from constants alone nothing is "
+            "reported, since a constant may be a switch."
+        ),
+        example=(
+            "behaviors:\n  stop:\n    inputs:\n      place:\n        high: speed > 0\n"
+            "        top: speed > 1\n        low: otherwise\n    actions:\n      push: {speed: speed + 1}"
+        ),
+        mend=(
+            "behaviors:\n  stop:\n    inputs:\n      place:\n        top: speed > 1\n"
+            "        high: speed > 0\n        low: otherwise\n    actions:\n      push: {speed: speed + 1}"
+        ),
     ),
     _warning(
         code="BB208",
@@ -103,7 +121,18 @@ WARNING_KINDS = (
             "Whatever the values compared in it, a behavior would never be excited, an episode would never end, or "
             "would end after its first step. Often and stands for or, or a sign points the wrong way."
         ),
-        example="behaviors:\n  stop:\n    excited: height < 2 and height > 3",
-        mend="behaviors:\n  stop:\n    excited: height < 2 or height > 3",
+        example="behaviors:\n  stop:\n    excited: height < 2.4 and height > 2.6",
+        mend="behaviors:\n  stop:\n    excited: height < 2.4 or height > 2.6",
+    ),
+    _warning(
+        code="BB210",
+        title="a rounded number compared by ==",
+        explanation=(
+            "Fractions are computed with about 16 digits, so that 0.1 + 0.2 is not exactly 0.3: a value that is added "
+            "up, drawn or divided hardly ever equals a number exactly. Whole numbers, halves and quarters are exact, "
+            "and so is what is set to that number or clipped at it; these are not reported."
+        ),
+        example="behaviors:\n  stop:\n    inputs:\n      reached: height == 3",
+        mend="behaviors:\n  stop:\n    inputs:\n      reached: abs(height - 3) < 0.01",
     ),
 )

@@ -186,7 +186,10 @@ def _comparison(expr: Comparison, scope: Scope) -> Node:
         return scope.mistake("BB055", "a truth is compared with a number", expr.span)
     if kinds == {Kind.TRUTH} and not set(expr.operators) <= {"==", "!="}:
         return scope.mistake("BB055", "truths have no order; they can only be == or !=", expr.span)
-    pairs = zip(expr.operators, nodes, nodes[1:], strict=False)
+    pairs = [*zip(expr.operators, nodes, nodes[1:], strict=False)]
+    for operator, left, right in pairs:
+        if operator in ("==", "!=") and Kind.NUMBER is left.kind is right.kind:
+            scope.findings.equalities.append((scope.path, expr.span, left, right))
     return scope.graph.fold("&", [scope.graph.apply(operator, *pair) for operator, *pair in pairs])
 
 

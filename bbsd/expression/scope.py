@@ -78,6 +78,8 @@ class Findings:
     """In order of discovery, each once though most expressions are elaborated for many robots."""
     wholes: list[tuple[Path, Span, str, Node]] = field(default_factory=list)
     """Values that must be proven to be whole numbers, each with its place and purpose."""
+    equalities: list[tuple[Path, Span, Node, Node]] = field(default_factory=list)
+    """Numbers that are compared by == or !=, each pair with its place."""
     seen: set[tuple[Path, Span]] = field(default_factory=set)
     """Unknown names that were reported: for the next robot no near name has to be searched."""
     entered: tuple[Path, Span] = ((), WHOLE)

@@ -70,4 +70,5 @@ def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings
     report_fractions(episode, constants, findings)
     if episode is None:
         return None
-    return Meaning(spec, seed, graph, constants, episode, structure, rates)
+    equalities = tuple(dict.fromkeys(findings.equalities))
+    return Meaning(spec, seed, graph, constants, episode, structure, rates, equalities)

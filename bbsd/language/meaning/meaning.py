@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from bbsd.kernel.streams import name_word, word_of
 
 if TYPE_CHECKING:
-    from bbsd.expression.graph import Graph
+    from bbsd.expression.graph import Graph, Node
+    from bbsd.expression.scope import Path
+    from bbsd.expression.syntax.tree import Span
     from bbsd.language.meaning.constants import Constants
     from bbsd.language.meaning.episode import Episode
     from bbsd.language.meaning.rates import Rates
@@ -27,6 +29,8 @@ class Meaning:
     episode: Episode
     structure: Structure
     rates: Rates
+    equalities: tuple[tuple[Path, Span, Node, Node], ...] = ()
+    """Numbers that are compared by == or !=, each pair with its place, for each robot."""
 
 
 def seed_key(seed: int) -> int:

@@ -13,15 +13,19 @@ if TYPE_CHECKING:
 
     from bbsd.expression.graph import Graph, Node
     from bbsd.language.meaning import Meaning
+    from bbsd.language.meaning.proofs.intervals import Bounds
     from bbsd.language.validation import LocatedMistake
 
 
-def vain_conditions(meaning: Meaning) -> Iterator[LocatedMistake]:
-    """Yield a warning for each behavior that is never excited, and for an end that never comes or comes at once."""
+def vain_conditions(meaning: Meaning, bounds: Bounds) -> Iterator[LocatedMistake]:
+    """Yield a warning for each behavior that is never excited, and for an end that never comes or comes at once.
+
+    Where that follows from constants alone, nothing is said: a constant may be a switch.
+    """
     graph = meaning.graph.fork()
     for module in meaning.episode.modules:
         behavior = meaning.spec.behaviors[module.name]
-        if behavior.excited is not None and _never(module.excited, graph):
+        if behavior.excited is not None and _never(module.excited, bounds, graph):
             message, advice = (
                 f"{module.name} is never excited: this never holds",
                 "mend it, or leave the behavior out",
@@ -30,7 +34,7 @@ def vain_conditions(meaning: Meaning) -> Iterator[LocatedMistake]:
     ends, written = meaning.episode.ends, meaning.spec.environment.ends
     if ends is not None and written is not None and meaning.spec.environment.outside is None:
         path = ("environment", "ends")
-        if _never([ends], graph):
+        if _never([ends], bounds, graph):
             yield (
                 path,
                 Mistake(
@@ -42,10 +46,11 @@ def vain_conditions(meaning: Meaning) -> Iterator[LocatedMistake]:
             yield path, Mistake("BB209", message, WHOLE, "mend it, or write steps: 1")
 
 
-def _never(nodes: Iterable[Node], graph: Graph) -> bool:
-    """Return whether conditions provably never hold, whatever the values of constants, state and sensors."""
+def _never(nodes: Iterable[Node], bounds: Bounds, graph: Graph) -> bool:
+    """Return whether conditions provably never hold."""
     return all(
-        _always(graph.apply("not", node), graph) for node in {node.number: node for node in nodes}.values()
+        not bounds.of(node)[1] or _always(graph.apply("not", node), graph)
+        for node in {node.number: node for node in nodes}.values()
     )
 
 
