@@ -82,8 +82,8 @@ WARNING_KINDS = (
             "Several robots start alike, carry the same design, and nothing that they sense or do is drawn or depends "
             "on which robot it is, so that they do the same in every step. One robot would show the same."
         ),
-        example="environment:\n  robots: 3\n  state:\n    height: 2\n  dynamics:\n    height: height + speed",
-        mend="environment:\n  robots: 3\n  state:\n    height: 2 + robot\n  dynamics:\n    height: height + speed",
+        example="environment:\n  robots: 3\n  state:\n    height: 2\n  dynamics:\n    height: height + speed + 1",
+        mend="environment:\n  robots: 3\n  state:\n    height: 2 + robot\n  dynamics:\n    height: height + speed + 1",
     ),
     _warning(
         code="BB207",

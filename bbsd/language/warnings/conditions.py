@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
     from bbsd.expression.graph import Graph, Node
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.proofs.intervals import Bounds
     from bbsd.language.validation import LocatedMistake
+    from bbsd.language.warnings.intervals import Bounds
 
 
 def vain_conditions(meaning: Meaning, bounds: Bounds) -> Iterator[LocatedMistake]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.language.meaning.proofs.intervals import Bounds
 from bbsd.language.warnings.actions import useless_actions
 from bbsd.language.warnings.conditions import vain_conditions
 from bbsd.language.warnings.influence import uninfluenced_terms
+from bbsd.language.warnings.intervals import Bounds
 from bbsd.language.warnings.reach import unreached_cells
 from bbsd.language.warnings.robots import robots_alike
 from bbsd.language.warnings.rounding import rounded_equalities

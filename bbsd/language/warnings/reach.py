@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Graph, Node
     from bbsd.expression.scope import Path
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.proofs.intervals import Bounds
     from bbsd.language.meaning.tables.labels import Labels
     from bbsd.language.validation import LocatedMistake
+    from bbsd.language.warnings.intervals import Bounds
 
 MOST_SHOWN = 5
 """Cells that a warning names."""
