@@ -66,6 +66,7 @@ OPERATIONS: Mapping[str, Operation] = MappingProxyType(
         "divide": Operation(functions.divide, word="/"),
         "floor_divide": Operation(functions.floor_divide, 0, _LIKE_OPERANDS, "//"),
         "modulo": Operation(functions.modulo, 0, _LIKE_OPERANDS, "%"),
+        "quick_modulo": Operation(functions.quick_modulo, 0, _LIKE_OPERANDS),
         "power": Operation(functions.power, word="**", is_expensive=True),
         "whole_power": Operation(functions.whole_power, 0, _LIKE_OPERANDS),
         "minimum": Operation(functions.minimum, 0, _LIKE_OPERANDS, "min", "min"),

@@ -32,6 +32,7 @@ from bbsd.kernel.primitives import (
     round_half_even,
     select,
     sqrt,
+    truncated_remainder,
 )
 
 __all__ = [
@@ -63,6 +64,7 @@ __all__ = [
     "minimum",
     "modulo",
     "power",
+    "quick_modulo",
     "radians",
     "round_half_even",
     "select",
@@ -72,6 +74,7 @@ __all__ = [
     "tan",
     "tangent_slack",
     "tanh",
+    "truncated_remainder",
     "whole_power",
     "wrap",
 ]
@@ -137,12 +140,18 @@ def floor_divide(dividend: float, divisor: float) -> float:
 
 
 def modulo(dividend: float, divisor: float) -> float:
-    """Return Python's `%`, with the sign of the divisor; NaN where the divisor is 0 or the quotient above 2**52.
+    """Return Python's `%`, with the sign of the divisor, for all numbers; NaN by zero and of an infinity."""
+    return _with_sign_of(divisor, truncated_remainder(dividend, divisor))
 
-    The divisor and the dividend must be 0 or of a magnitude in 1e-280 .. 1e290.
-    """
+
+def quick_modulo(dividend: float, divisor: float) -> float:
+    """Return Python's `%` where the quotient is below 2**52 and the divisor of a magnitude in 1e-270 .. 1e270."""
     quotient = floor(divide(dividend, divisor))
-    rest = _remainder(dividend, divisor, select(abs(quotient) < 4503599627370496.0, quotient, NAN))
+    return _with_sign_of(divisor, _remainder(dividend, divisor, quotient))
+
+
+def _with_sign_of(divisor: float, rest: float) -> float:
+    """Return a remainder that has the sign of the divisor, for one that may have the other."""
     wrapped = select(rest * sign(divisor) < 0.0, rest + divisor, rest)
     return select(rest == 0.0, copysign(0.0, divisor), wrapped)
 
@@ -310,8 +319,10 @@ COMPILABLE = (
     _product_error,
     _remainder,
     floor_divide,
+    _with_sign_of,
     modulo,
     wrap,
+    quick_modulo,
     _fraction_of_exponential,
     _power_of_two,
     exp,

@@ -209,6 +209,11 @@ FIXED: tuple[tuple[Function, Signature, Emit], ...] = (
     (primitives.cell_of, int64(boolean), lambda builder, _sig, truth: builder.zext(truth, WORD)),
     (primitives.copysign, float64(float64, float64), _llvm("llvm.copysign", 2)),
     (primitives.divide, float64(float64, float64), lambda builder, _sig, *values: builder.fdiv(*values)),
+    (
+        primitives.truncated_remainder,
+        float64(float64, float64),
+        lambda builder, _sig, *values: builder.frem(*values),
+    ),
     (primitives.sqrt, float64(float64), _llvm("llvm.sqrt")),
     (primitives.round_half_even, float64(float64), _llvm("llvm.rint")),
     (primitives.floor, float64(float64), _llvm("llvm.floor")),

@@ -90,6 +90,13 @@ def divide(dividend: float, divisor: float) -> float:
     return dividend * math.copysign(INFINITY, divisor)
 
 
+def truncated_remainder(dividend: float, divisor: float) -> float:
+    """Return C's `fmod`, exact and with the sign of the dividend; NaN by zero and of an infinity."""
+    if divisor == 0.0 or math.isinf(dividend):
+        return NAN
+    return math.fmod(dividend, divisor)
+
+
 def sqrt(x: float) -> float:
     """Return the square root, NaN below zero."""
     return math.sqrt(x) if x >= 0.0 else NAN
@@ -127,6 +134,7 @@ PRIMITIVES = (
     word_of,
     copysign,
     divide,
+    truncated_remainder,
     sqrt,
     round_half_even,
     floor,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.compiler.details import Detail
+from bbsd.compiler.passes.quick_moduli import compute_moduli_quickly
 from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
 from bbsd.compiler.passes.shared_slots import share_slots
 from bbsd.compiler.passes.tangents import compare_tangents
@@ -42,6 +43,12 @@ def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...
     A program with more robots than `most_written_out` gets loops over robots.
     """
     return (
+        Pass(
+            "quick moduli",
+            lambda program: replace(program, meaning=compute_moduli_quickly(program.meaning)),
+            frozenset({Detail.CREDIT, Detail.TERMS, Detail.PRACTICE, Detail.WORLD}),
+            "A remainder by a division is vectorized, and exact where the quotient is certainly small.",
+        ),
         Pass(
             "shared slots",
             lambda program: replace(program, meaning=share_slots(program.meaning)),

@@ -88,9 +88,7 @@ static inline double bbsd_floor_divide(double dividend, double divisor) {
 
 /* What a whole quotient leaves, with the sign of the divisor. */
 static inline double bbsd_modulo(double dividend, double divisor) {
-    const double quotient = floor(dividend / divisor);
-    const double whole = fabs(quotient) < 4503599627370496.0 ? quotient : (double)NAN;
-    const double rest = bbsd_remainder(dividend, divisor, whole);
+    const double rest = fmod(dividend, divisor);
     if (rest == 0.0) {
         return copysign(0.0, divisor);
     }

@@ -8,7 +8,7 @@ from types import ModuleType
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -188,6 +188,27 @@ def test_division_with_a_whole_quotient_is_python_s(dividend: float, divisor: fl
     got = f.floor_divide(dividend, divisor), f.modulo(dividend, divisor)
     assert got == (dividend // divisor, dividend % divisor)
     assert math.copysign(1.0, got[1]) == math.copysign(1.0, dividend % divisor)
+    assert f.bits_of(f.quick_modulo(dividend, divisor)) == f.bits_of(got[1])
+
+
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(FINITE, FINITE.filter(bool))
+@example(1e300, 3.0)
+@example(-(2.0**53 + 2), 7.0)
+@example(5e-324, -1.7976931348623157e308)
+@example(1.7976931348623157e308, 5e-324)
+@example(-5e-324, 3.0)
+def test_remainders_of_all_numbers_are_python_s(dividend: float, divisor: float) -> None:
+    assert f.bits_of(f.modulo(dividend, divisor)) == f.bits_of(dividend % divisor)
+
+
+@given(st.floats(-(2.0**51), 2.0**51), st.floats(1e-270, 1e270), st.booleans())
+def test_quick_remainders_are_those_of_all_numbers(ratio: float, size: float, negative: bool) -> None:
+    divisor = -size if negative else size
+    dividend = ratio * divisor
+    assert f.bits_of(f.quick_modulo(dividend, divisor)) == f.bits_of(f.modulo(dividend, divisor))
 
 
 @given(st.integers(-(10**15), 10**15), st.integers(-(10**15), 10**15).filter(bool))
@@ -350,6 +371,7 @@ EXPRESSIONS = (
     "minimum(x, y)",
     "maximum(x, y)",
     "modulo(x, y)",
+    "quick_modulo(x, y)",
     "floor_divide(x, y)",
     "power(x, y)",
     "select(is_finite(x) & (x < y), 1.0, 2.0)",
