@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal, SupportsFloat
 from bbsd.architecture.sayings import one_line, partition_text
 from bbsd.errors import UsageError, did_you_mean
 from bbsd.expression.kinds import Kind
-from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.tables.labels import Numbers
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.tables.labels import Labels
 
-InputKind = Literal["number", "whole number", "truth", "cell"]
+InputKind = Literal["number", "whole number", "truth", "cell", "name"]
 FEW = 8
 """Cells that a message lists."""
 
@@ -34,7 +33,7 @@ class BadInput(UsageError):
 class AgentInput:
     """A value that an agent must be given before each decision.
 
-    A `cell` is given by its label, or by its index where labels are no numbers.
+    A `cell` is given by its label, or by its index where labels are no numbers; a `name` by itself, or by its index.
     """
 
     name: str
@@ -42,7 +41,7 @@ class AgentInput:
     shape: tuple[int, ...]
     """() for a single value, else the lengths of the lists."""
     cells: Labels
-    """The labels of a cell; empty for other kinds."""
+    """The labels of a cell, or the names of which the value is one; empty for other kinds."""
     low: float | None
     """The least that it can be; None where the spec does not say so."""
     high: float | None
@@ -68,6 +67,8 @@ class AgentInput:
                 return self._truth(value)
             case "cell":
                 return self._cell(value)
+            case "name":
+                return float(self._cell(value))
         return self._number(value)
 
     def _number(self, value: object) -> float:
@@ -98,8 +99,9 @@ class AgentInput:
         if isinstance(plain, int) and not isinstance(plain, bool) and self._has_named(plain):
             return plain
         few = ", ".join(self.cells[:FEW]) + (", ..." if len(self.cells) > FEW else "")
+        what = "values" if self.kind == "name" else "cells"
         raise BadInput(
-            f"{self.name}: {plain!r} is none of its cells{did_you_mean(label, self.cells[:100])}: {few}"
+            f"{self.name}: {plain!r} is none of its {what}{did_you_mean(label, self.cells[:100])}: {few}"
         )
 
     def _has_named(self, index: int) -> bool:
@@ -127,11 +129,10 @@ def _input(meaning: Meaning, given: Given, whole: Collection[Slot], robot: int) 
     lengths = [max(place) + 1 for place in zip(*(slot.place for slot in slots), strict=True)]
     team = [meaning.spec.environment.robots] if given.of_team else []
     low, high = _range(meaning, given.name)
-    sensor = meaning.spec.environment.sensors.get(given.name)
-    cells = meaning.episode.partitions[given.name] if sensor is not None and is_partition(sensor) else ()
+    cells = meaning.episode.labels(given.name)
     kind: InputKind = "whole number" if slots[0] in whole else "number"
     if cells:
-        kind = "cell"
+        kind = "name" if given.name in meaning.episode.named else "cell"
     elif meaning.episode.after[slots[0]].kind is Kind.TRUTH:
         kind = "truth"
     return AgentInput(

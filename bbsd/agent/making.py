@@ -69,7 +69,8 @@ def program_of(design: Design, robot: int) -> Program:
     read, kept = slots_read(needs)
     inputs = inputs_of(design.meaning, design.needs.given, read, design.whole, robot)
     start = _start(needs, kept, design.constants)
-    return Program(design.controller, robot, needs, inputs, tuple(kept), start, design.constants)
+    named = design.meaning.episode.named
+    return Program(design.controller, robot, needs, inputs, tuple(kept), start, design.constants, named)
 
 
 def _start(needs: RobotNeeds, kept: Sequence[Slot], constants: Sequence[float]) -> Kept:

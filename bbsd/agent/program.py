@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bbsd.agent.inputs import AgentInput
     from bbsd.architecture.controller import Controller
     from bbsd.architecture.needs import RobotNeeds
-    from bbsd.expression.node_data import Slot
+    from bbsd.expression.node_data import Slot, Variable
 
 Scalar = float | bool | int
 Kept = tuple[Scalar, ...]
@@ -32,7 +32,7 @@ class Act(NamedTuple):
     number: int
     behavior: str | None
     action: str | None
-    sets: dict[str, float | bool]
+    sets: dict[str, float | bool | str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +50,8 @@ class Program:
     start: Kept
     """What is kept before the first step."""
     constants: Sequence[float]
+    named: Mapping[str, tuple[str, ...]]
+    """The names of values of state, by what has them."""
 
     @property
     def values(self) -> dict[Slot, str]:
@@ -96,7 +98,8 @@ def plain_functions(
     for index, each in enumerate(program.inputs.values()):
         namespace[f"read_{index}"] = _reader(each, not_finite)
         if _is_looked_up(each):
-            namespace[f"labels_{index}"] = {label: cell for cell, label in enumerate(each.cells)}
+            stored = float if each.kind == "name" else int
+            namespace[f"labels_{index}"] = {label: stored(cell) for cell, label in enumerate(each.cells)}
 
     def complain(given: Mapping[str, Any]) -> None:
         problem = complaint(program.inputs, known, given)
@@ -122,6 +125,12 @@ def _decision(program: Program, used: set[str]) -> list[str]:
     return body.lines
 
 
+def _as_set(variable: Variable, text: str, program: Program) -> str:
+    """Return the expression of a value that is set, as the program is told it: a number or a truth, or a name."""
+    names = program.named.get(variable[0])
+    return f"{names!r}[int({text})]" if names else text
+
+
 def _cells(program: Program, used: set[str]) -> list[str]:
     body = program.body(used)
     names = [body.text(node) for node in program.needs.cells.values()]
@@ -139,7 +148,10 @@ def _outcome(program: Program, number: int, used: set[str]) -> list[str]:
             program.controller.actions[number - 1].behavior,
             program.controller.actions[number - 1].name,
         )
-    sets = ", ".join(f"{variable_text(variable)!r}: {text}" for variable, text in outcome.sets.items())
+    sets = ", ".join(
+        f"{variable_text(variable)!r}: {_as_set(variable, text, program)}"
+        for variable, text in outcome.sets.items()
+    )
     kept = "".join(f"{text}, " for text in outcome.kept)
     body.say(f"return {ACT}({number}, {behavior!r}, {action!r}, {{{sets}}}), ({kept})")
     return [f"def outcome_{number}({program.arguments}):", *body.lines]
@@ -190,7 +202,7 @@ def _read(index: int, each: AgentInput, name: str) -> list[str]:
             is_other = f"type({name}) is not float or {name} % 1.0 != 0.0"
         case "truth":
             is_other = f"{name} is not True and {name} is not False"
-        case "cell":
+        case "cell" | "name":
             if not _is_looked_up(each):
                 return [f"    {name} = read_{index}({name})"]
             looked_up = f"labels_{index}[{name}] if type({name}) is str and {name} in labels_{index}"
@@ -199,7 +211,7 @@ def _read(index: int, each: AgentInput, name: str) -> list[str]:
 
 
 def _is_looked_up(each: AgentInput) -> bool:
-    return each.kind == "cell" and not isinstance(each.cells, Numbers)
+    return each.kind in ("cell", "name") and not isinstance(each.cells, Numbers)
 
 
 def _reader(each: AgentInput, not_finite: Callable[[str, float], float]) -> Callable[[object], Scalar]:

@@ -12,7 +12,7 @@ from bbsd.expression.vocabulary import DRAWS
 from bbsd.language.field_types import expressions_in
 
 if TYPE_CHECKING:
-    from bbsd.expression.scope import Value
+    from bbsd.expression.scope import Plain
     from bbsd.language.meaning import Meaning
     from bbsd.text import Data, DataPath
 
@@ -33,7 +33,7 @@ def _has_draws(expr: Expr) -> bool:
     return (isinstance(expr, Call) and expr.function in DRAWS) or any(map(_has_draws, parts(expr)))
 
 
-def _datum(value: Value) -> Data:
+def _datum(value: Plain) -> Data:
     if isinstance(value, tuple):
         return [_datum(item) for item in value]
     if not value.literal:

@@ -166,7 +166,7 @@ def _size(text: str, written: str | None, kind: str) -> float:
 
 def _is_number(sensor: str, meaning: Meaning) -> bool:
     kinds = {node.kind for slot, node in meaning.episode.after.items() if slot.name == sensor}
-    return kinds == {Kind.NUMBER}
+    return kinds == {Kind.NUMBER} and not meaning.episode.labels(sensor)
 
 
 def faulty_meaning(meaning: Meaning, fault: Fault) -> Meaning:

@@ -12,7 +12,7 @@ from bbsd.evaluation.frames import frame
 from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
     from bbsd.evaluation.decisions import Decisions, Layer
     from bbsd.evaluation.scene import Scene
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 Floats = npt.NDArray[np.float64]
 Value: TypeAlias = float | int | bool | str
-"""A number, a whole number, a truth, or the label of a cell."""
+"""A number, a whole number, a truth, or the label of a cell or the name of a value."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +50,8 @@ class Trace:
 
     Empty where no behavior of the spec expects anything.
     """
+    named: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """All names that a value can be one of, by what has them, where a value is one of several names."""
     scene: Scene | None = None
     """The scene of the spec's view, if it has one."""
 

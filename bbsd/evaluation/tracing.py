@@ -13,7 +13,6 @@ from bbsd.evaluation.decisions import decisions_of, layers_of
 from bbsd.evaluation.scene import scene, starting_values, values_of
 from bbsd.evaluation.traced import Trace
 from bbsd.expression.kinds import Kind
-from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.proofs.whole_numbers import whole_values
 from bbsd.language.meaning.situation import definitions_at_the_start
 
@@ -47,6 +46,7 @@ def trace(problem: Problem, architecture: Architecture, key: int, generation: in
         steps=np.arange(1, len(record) + 1),
         **_read(problem, columns, record, _with_definitions(start, meaning, constants)),
         robots=meaning.spec.environment.robots,
+        named=meaning.episode.named,
         decisions=decisions_of(problem, architecture, columns, record),
         layers=layers_of(meaning.episode.modules, architecture.structure),
     )
@@ -111,16 +111,16 @@ def _read(
 
 
 def _reader(meaning: Meaning) -> Callable[[Slot, float], Value]:
-    """Return the function that makes a recorded number what it is: a truth, the label of a cell, a whole number."""
-    episode, sensors = meaning.episode, meaning.spec.environment.sensors
+    """Return the function that makes a recorded number what it is: a truth, a cell's label, a name, a whole number."""
+    episode = meaning.episode
     kinds = {slot: node.kind for slot, node in (*episode.after.items(), *episode.definitions.items())}
     whole = whole_values(episode, meaning.constants)
 
     def as_value(slot: Slot, number: float) -> Value:
         if kinds[slot] is Kind.TRUTH:
             return bool(number)
-        if slot.name in sensors and is_partition(sensors[slot.name]):
-            return episode.partitions[slot.name][int(number)]
+        if labels := episode.labels(slot.name):
+            return labels[int(number)]
         return int(number) if slot in whole and isfinite(number) else number
 
     return as_value

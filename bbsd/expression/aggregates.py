@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.checks import has_arguments, require_kind, require_static_whole
+from bbsd.expression.graph import Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import report_unseen
 from bbsd.expression.operations import BY_AGGREGATE
@@ -14,7 +15,6 @@ from bbsd.expression.syntax.tree import Call, Generator, Name
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.expression.graph import Node
     from bbsd.expression.lookup import Elaborate
     from bbsd.expression.scope import Scope, Value
     from bbsd.expression.syntax.tree import Expr, Span
@@ -73,9 +73,11 @@ def _fold(function: str, nodes: Sequence[Node], scope: Scope) -> Node:
 
 
 def _label_of_best(expr: Call, elements: Sequence[Element], nodes: Sequence[Node], scope: Scope) -> Node:
-    labels = [element.label for element in elements if not isinstance(element.label, tuple)]
+    labels = [element.label for element in elements if isinstance(element.label, Node)]
     if len(labels) < len(elements):
-        return scope.mistake("BB062", f"{expr.function} needs one number after for, not a row", expr.span)
+        return scope.mistake(
+            "BB062", f"{expr.function} needs one number after for, not a row or a name", expr.span
+        )
     graph, operation = scope.graph, "<" if expr.function == "argmin" else ">"
     best, its_label = nodes[0], labels[0]
     for node, label in zip(nodes[1:], labels[1:], strict=True):

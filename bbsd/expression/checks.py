@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.scope import Named
 from bbsd.expression.syntax.tree import Generator
 
 if TYPE_CHECKING:
@@ -22,6 +23,11 @@ def require_kind(value: Value, kind: Kind, span: Span, scope: Scope) -> Node:
     if isinstance(value, tuple):
         advice = "take an element or an aggregate of it"
         return scope.mistake("BB056", f"a list, where {kind.value} is needed", span, advice)
+    if isinstance(value, Named):
+        message = f"a named value, where {kind.value} is needed"
+        name = value.names[0]
+        advice = f"compare it: ... == {name}" if kind is Kind.TRUTH else f"write 1 if ... == {name} else 0"
+        return scope.mistake("BB139", message, span, advice)
     if value.kind not in (kind, Kind.UNKNOWN):
         message = f"{value.kind.value}, where {kind.value} is needed"
         return scope.mistake("BB055", message, span, ADVICE.get(value.kind, ""))
@@ -32,7 +38,7 @@ def require_finite(value: Value, span: Span, scope: Scope) -> Value:
     """Return a value with literals that are infinite or not a number reported and replaced by unknown ones."""
     if isinstance(value, tuple):
         return tuple(require_finite(item, span, scope) for item in value)
-    if not value.literal or isfinite(value_of(value)):
+    if isinstance(value, Named) or not value.literal or isfinite(value_of(value)):
         return value
     what = "not a number" if isnan(value_of(value)) else "infinite"
     return scope.mistake("BB125", f"this is {what}: it goes beyond binary64, or divides by zero", span)

@@ -16,8 +16,16 @@ from bbsd.expression.drawing import impossible_draw
 from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
+from bbsd.expression.naming import (
+    choose,
+    compare,
+    is_unknown,
+    report_no_value,
+    report_unknown_values,
+    settled,
+)
 from bbsd.expression.operations import BY_WORD
-from bbsd.expression.scope import Definition, Unusable
+from bbsd.expression.scope import Definition, Named, Unusable
 from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import (
@@ -31,6 +39,7 @@ from bbsd.expression.syntax.tree import (
     Logical,
     Name,
     Number,
+    OneOf,
     Span,
     Truth,
     Unary,
@@ -41,12 +50,15 @@ from bbsd.kernel.streams import fold, name_word, word_of
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
-    from bbsd.expression.scope import Draws, Scope, Value
+    from bbsd.expression.scope import Draws, Names, Scope, Value
 
 MAX_WHOLE_POWER = 64
 """The largest constant exponent whose power is computed by multiplications."""
 EXPRESSION_WORK = 5
 """The work of starting an expression for a robot, beside that of its nodes."""
+
+STORED = (("environment", "state"), ("environment", "world"))
+"""Where `one of [...]` may stand."""
 
 COMPARISON_WORK = 5
 """The work of a comparison, beside that of its nodes: long conditions repeat few nodes often."""
@@ -68,7 +80,7 @@ def scalar(expr: Expr, scope: Scope) -> Node:
     if isinstance(result, tuple):
         advice = "take an element or an aggregate of it"
         return scope.mistake("BB056", "a list, where one value is needed", expr.span, advice)
-    return result
+    return result.node if isinstance(result, Named) else result
 
 
 def value(expr: Expr, scope: Scope) -> Value:
@@ -78,6 +90,12 @@ def value(expr: Expr, scope: Scope) -> Value:
     result = _value(expr, _number_draws(expr, scope))
     # What sensors show at the start, of values that begin at 0, say, may be infinite there alone.
     return result if scope.starting else require_finite(result, expr.span, scope)
+
+
+def value_of_names(expr: Expr, what: str, names: Names, scope: Scope) -> Value:
+    """Elaborate an expression that must be one of the names that `what` can be."""
+    report_unknown_values(expr, what, names, scope)
+    return settled(value(expr, scope), what, names, expr.span, scope)
 
 
 def whole(expr: Expr, scope: Scope, purpose: str) -> Node:
@@ -99,8 +117,10 @@ def _number_draws(expr: Expr, scope: Scope) -> Scope:
     return replace(scope, draws=replace(scope.draws, ordinals=ordinals))
 
 
-def _draws_in(expr: Expr) -> list[Call]:
-    own = [expr] if isinstance(expr, Call) and expr.function in DRAWS else []
+def _draws_in(expr: Expr) -> list[Call | OneOf]:
+    own: list[Call | OneOf] = []
+    if (isinstance(expr, Call) and expr.function in DRAWS) or (isinstance(expr, OneOf) and expr.at_random):
+        own = [expr]
     return own + [call for part in parts(expr) for call in _draws_in(part)]
 
 
@@ -129,6 +149,26 @@ def _value(expr: Expr, scope: Scope) -> Value:
         case Generator():
             message = "a generator can only be the one argument of an aggregate"
             return scope.mistake("BB062", message, expr.span)
+        case OneOf():
+            return _one_of(expr, scope)
+
+
+def _one_of(expr: OneOf, scope: Scope) -> Value:
+    """Return what a state that is one of several names is at first."""
+    if scope.path[:-1] not in STORED:
+        advice = "name the state in state or world, and use its name here"
+        return scope.mistake(
+            "BB136", "one of [...] says what a state or a value of the world can be", expr.span, advice
+        )
+    graph = scope.graph
+    if expr.at_random and scope.draws is not None:
+        word = _word_of_draw(scope.draws, expr.span, scope.robot or 0)
+        ends = graph.number(0), graph.number(len(expr.names) - 1)
+        return Named(((expr.names, graph.draw("integers", word, ends)),))
+    if expr.start is None:
+        return Named(((expr.names, graph.number(0)),))
+    report_unknown_values(expr.start, str(scope.path[-1]), expr.names, scope)
+    return settled(_value(expr.start, scope), str(scope.path[-1]), expr.names, expr.start.span, scope)
 
 
 def _of_kind(expr: Expr, kind: Kind, scope: Scope) -> Node:
@@ -175,12 +215,17 @@ def _logical(expr: Logical, scope: Scope) -> Node:
 def _comparison(expr: Comparison, scope: Scope) -> Node:
     scope.graph.spend(COMPARISON_WORK)
     nodes: list[Node] = []
+    values: list[Value] = []
     for operand in expr.operands:
-        node = _value(operand, scope)
+        node = scope.graph.unknown if is_unknown(operand, scope) else _value(operand, scope)
         if isinstance(node, tuple):
             advice = "compare elements, or use any(...) or all(...)"
             return scope.mistake("BB056", "lists cannot be compared", operand.span, advice)
-        nodes.append(node)
+        values.append(node)
+        nodes.append(node.node if isinstance(node, Named) else node)
+    _report_unknown_operands(expr, values, scope)
+    if (compared := compare(expr, values, scope)) is not None:
+        return compared
     kinds = {node.kind for node in nodes} - {Kind.UNKNOWN}
     if len(kinds) > 1:
         return scope.mistake("BB055", "a truth is compared with a number", expr.span)
@@ -193,9 +238,24 @@ def _comparison(expr: Comparison, scope: Scope) -> Node:
     return scope.graph.fold("&", [scope.graph.apply(operator, *pair) for operator, *pair in pairs])
 
 
-def _conditional(expr: Conditional, scope: Scope) -> Node:
+def _report_unknown_operands(expr: Comparison, values: list[Value], scope: Scope) -> None:
+    """Report operands that are names which nothing has: beside a state with names they stand for its values."""
+    pairs = [*zip(expr.operands, values, strict=True)]
+    known = next(
+        ((other, each) for other, each in pairs if isinstance(each, Named) and each.is_settled), None
+    )
+    for operand in expr.operands:
+        if not isinstance(operand, Name) or not is_unknown(operand, scope):
+            continue
+        if known is None:
+            name_value(operand, scope, _value)
+        else:
+            report_no_value(operand.name, operand.span, render(known[0]), known[1].names, scope)
+
+
+def _conditional(expr: Conditional, scope: Scope) -> Value:
     condition = _of_kind(expr.condition, Kind.TRUTH, scope)
-    arms: list[Node] = []
+    arms: list[Node | Named] = []
     for arm in (expr.then, expr.otherwise):
         node = _value(arm, scope)
         if isinstance(node, tuple):
@@ -203,9 +263,14 @@ def _conditional(expr: Conditional, scope: Scope) -> Node:
             return scope.mistake("BB056", message, arm.span)
         arms.append(node)
     then, otherwise = arms
-    if len({then.kind, otherwise.kind} - {Kind.UNKNOWN}) > 1:
+    kinds = {then.kind, otherwise.kind} - {Kind.UNKNOWN}
+    if len(kinds) > 1:
         message = f"one arm is {then.kind.value}, the other {otherwise.kind.value}"
-        return scope.mistake("BB055", message, expr.span)
+        return scope.mistake("BB139" if Kind.NAMED in kinds else "BB055", message, expr.span)
+    if isinstance(then, Named) and isinstance(otherwise, Named):
+        return choose(condition, then, otherwise, expr.span, scope)
+    if isinstance(then, Named) or isinstance(otherwise, Named):
+        return scope.graph.unknown
     return scope.graph.apply("select", condition, then, otherwise)
 
 

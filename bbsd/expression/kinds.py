@@ -11,6 +11,8 @@ class Kind(Enum):
     NUMBER = "a number"
     TRUTH = "a truth"
     CELL = "a cell"
+    NAMED = "a named value"
+    """What a state that is one of several names has; no node, only a value of an expression, is of this kind."""
     UNKNOWN = "unknown"
     """What could not be understood; it silences mistakes that would only follow from the first."""
 

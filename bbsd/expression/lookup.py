@@ -11,11 +11,13 @@ from bbsd.errors import did_you_mean
 from bbsd.expression.checks import has_arguments, require_kind
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.naming import bare_name
 from bbsd.expression.picking import pick
 from bbsd.expression.scope import (
     Deferred,
     Definition,
     Findings,
+    Named,
     PerRobot,
     Scope,
     Shared,
@@ -51,6 +53,8 @@ def name_value(expr: Name, scope: Scope, elaborate: Elaborate) -> Value:
             return value_for(scope.robot)
         case Definition(parameters=()) as definition:
             return _definition(expr, definition, (), scope, elaborate)
+    if name not in scope.names and (bare := bare_name(name, scope)):
+        return bare
     return _without_value(expr, scope)
 
 
@@ -80,7 +84,8 @@ def _unknown(name: str, scope: Scope) -> str:
         return f"{name} is a function and needs its arguments in parentheses"
     if name in ("team", "others"):
         return f"{name} can only stand after in: max(x[r] for r in {name})"
-    return f'unknown name "{name}"{did_you_mean(name, [*scope.local, *scope.names, *CONSTANTS])}'
+    known = [*scope.local, *scope.names, *CONSTANTS, *scope.choices]
+    return f'unknown name "{name}"{did_you_mean(name, known)}'
 
 
 def report_unseen(what: str, span: Span, scope: Scope, expression: str = "", via: str = "") -> Node:
@@ -138,7 +143,7 @@ def element(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
 
 
 def _picked(items: Value, index: Node, expr: Index, scope: Scope) -> Value:
-    if isinstance(items, Node):
+    if not isinstance(items, tuple):
         if items.kind is Kind.UNKNOWN:
             return items
         message = "only lists, and what each robot has, can be indexed"
@@ -224,7 +229,13 @@ def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Valu
         message = "rows of different lengths can only be indexed by a plain number"
         return scope.mistake("BB057", message, at.span)
     scope.findings.wholes.append((scope.path, at.span, "an index", index))
-    return pick(items, index, scope.graph)
+    picked = pick(items, index, scope.graph)
+    if any(isinstance(item, Named) for item in items) and picked is scope.graph.unknown:
+        kinds = {item.kind for item in items if not isinstance(item, tuple)}
+        if Kind.UNKNOWN not in kinds:
+            message = "a list of values that do not have the same names can only be indexed by a plain number"
+            return scope.mistake("BB139", message, at.span)
+    return picked
 
 
 def is_plain_number(at: Expr) -> bool:

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 from bbsd.expression.graph import Graph, Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Gather
+from bbsd.expression.scope import Named
 from bbsd.kernel.functions import clamp_index
 
 if TYPE_CHECKING:
-    from bbsd.expression.scope import Value
+    from bbsd.expression.scope import Names, Value
 
 
 def pick(items: tuple[Value, ...], index: Node, graph: Graph) -> Value:
@@ -20,8 +21,20 @@ def pick(items: tuple[Value, ...], index: Node, graph: Graph) -> Value:
     nodes = [item for item in items if isinstance(item, Node)]
     if len(nodes) == len(items):
         return _gather(nodes, index, graph) or _choose(nodes, index, graph)
+    if named := [item for item in items if isinstance(item, Named)]:
+        return _pick_named(named, index, graph) if len(named) == len(items) else graph.unknown
     rows = [item for item in items if isinstance(item, tuple)]
     return tuple(pick(column, index, graph) for column in zip(*rows, strict=True))
+
+
+def _pick_named(items: list[Named], index: Node, graph: Graph) -> Value:
+    """Return one of several values with names; unknown where no list has the names of all."""
+    readings: list[tuple[Names, Node]] = []
+    for names, _ in items[0].readings:
+        picked = pick(tuple(node for item in items if (node := item.of(names)) is not None), index, graph)
+        if isinstance(picked, Node) and all(item.of(names) is not None for item in items):
+            readings.append((names, picked))
+    return Named(tuple(readings)) if readings else graph.unknown
 
 
 def _gather(nodes: list[Node], index: Node, graph: Graph) -> Node | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import Graph, Node, value_of
+from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import WHOLE, Mistake, TooManyMistakesError
 
 if TYPE_CHECKING:
@@ -19,8 +20,53 @@ MAX_MISTAKES = 200
 Path = tuple[str | int, ...]
 """The place of something in a spec: keys and positions from the top."""
 
-Value = Node | tuple["Value", ...]
+Names = tuple[str, ...]
+"""The names that a state can be one of, in order; the number of a value is its name's place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A value that is one of several names, as a number for each list of names that it may be of.
+
+    A bare name is of every state's list that has it, until something tells which is meant; all else is of one.
+    """
+
+    readings: tuple[tuple[Names, Node], ...]
+
+    @property
+    def kind(self) -> Kind:
+        """The kind of the value."""
+        return Kind.NAMED
+
+    def of(self, names: Names) -> Node | None:
+        """Return the number of the value among these names; None where it is none of them."""
+        return next((node for own, node in self.readings if own == names), None)
+
+    @property
+    def names(self) -> Names:
+        """The names of which the value is one; of the first list where several could be meant."""
+        return self.readings[0][0]
+
+    @property
+    def node(self) -> Node:
+        """The number of the value among those names."""
+        return self.readings[0][1]
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether it is known of which list the value is."""
+        return len(self.readings) == 1
+
+    def with_nodes(self, new: Callable[[Node], Node]) -> Named:
+        """Return the same value with other numbers."""
+        return Named(tuple((names, new(node)) for names, node in self.readings))
+
+
+Value = Node | Named | tuple["Value", ...]
 """A scalar, or a list of values."""
+
+Plain = Node | tuple["Plain", ...]
+"""A number or a truth, or a list of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,6 +200,8 @@ class Scope:
     """The function that gives how many values a node has, if these are 0, 1, and so on; else None."""
     memo: dict[Hashable, Value] = field(default_factory=dict)
     """Values of definitions at this moment."""
+    choices: Mapping[str, tuple[Names, ...]] = field(default_factory=dict)
+    """For each name that is a value of some state, the lists of names in which it occurs."""
     unseen: dict[Hashable, str] = field(default_factory=dict)
     """For definitions that the behavior cannot know: the first value in them that it cannot know."""
 
@@ -169,7 +217,7 @@ class Scope:
         return Scope(
             self.graph, self.names, self.findings, self.robots, self.robot, self.behavior, self.path,
             {**self.local, **names}, self.before, self.starting, draws, self.static, self.size, self.memo,
-            self.unseen,
+            self.choices, self.unseen,
         )  # fmt: skip
 
     def of_robot(self, robot: int) -> Scope:
@@ -177,7 +225,7 @@ class Scope:
         return Scope(
             self.graph, self.names, self.findings, self.robots, robot, self.behavior, self.path,
             self.local, self.before, self.starting, self.draws, self.static, self.size, self.memo,
-            self.unseen,
+            self.choices, self.unseen,
         )  # fmt: skip
 
     def static_value(self, node: Node) -> float | None:

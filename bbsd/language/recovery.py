@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from copy import deepcopy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, cast
 
+from bbsd.expression.syntax.one_of import is_one_of
+from bbsd.expression.vocabulary import WORDS
 from bbsd.language.outside import UNUSED
 from bbsd.language.validation import child, names_lost, path_of, validate
 
@@ -92,7 +95,7 @@ def recover(data: Data, errors: Sequence[ErrorDetails]) -> Recovered | None:
         mended = deepcopy(data)
         for error in errors:
             path = _path_blamed(error, data)
-            broken |= names_lost(error) | _names_below(error)
+            broken |= names_lost(error) | _names_below(error) | _values_lost(error)
             dependent |= _dependent(path)
             try:
                 _mend(mended, path, error["type"])
@@ -114,6 +117,13 @@ def _names_below(error: ErrorDetails) -> set[str]:
     """Return the names below a key that was not expected."""
     names = error["input"] if error["type"] == "extra_forbidden" else ()
     return {str(name) for name in names} if isinstance(names, dict | list) else set()
+
+
+def _values_lost(error: ErrorDetails) -> set[str]:
+    """Return the names of a state's values that could not be read."""
+    text = error["input"]
+    is_lost = error["type"] == "expression" and isinstance(text, str) and is_one_of(text)
+    return {*re.findall(r"\w+", text)} - WORDS if is_lost else set()
 
 
 def _dependent(path: Path) -> set[str]:

@@ -7,8 +7,15 @@ from typing import TYPE_CHECKING
 
 from bbsd.architecture.needs.naming import before
 from bbsd.expression.graph import Graph, Level
+from bbsd.expression.scope import Named
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.episode import definitions_at, slots_read, starting_values, stored_sensors
+from bbsd.language.meaning.episode import (
+    definitions_at,
+    scalars_defined,
+    slots_read,
+    starting_values,
+    stored_sensors,
+)
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import Names, refilled, scalars_by_slot
 from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among, within_definitions
@@ -87,7 +94,7 @@ class _Resolver:
                 self.nodes.update(nodes)
                 for moment in (later, first_time):
                     _set(moment.sensed, name, robot, [*nodes.values()])
-        defined = definitions_at(later) if definitions else {}
+        defined = scalars_defined(definitions_at(later)) if definitions else {}
         return Sensors(graph, self.nodes, frozenset(self.given), defined)
 
     def _combined(self, later: Mapping[Slot, Node], first: Mapping[Slot, Node]) -> dict[Slot, Node]:
@@ -100,7 +107,9 @@ class _Resolver:
         return self.names.graph.leaf("slot", before(leaf.slot), leaf.kind, Level.LANE)
 
     def _value_before(self, value: Value) -> Value:
-        return tuple(map(self._value_before, value)) if isinstance(value, tuple) else self._before(value)
+        if isinstance(value, tuple):
+            return tuple(map(self._value_before, value))
+        return value.with_nodes(self._before) if isinstance(value, Named) else self._before(value)
 
 
 def _elaborated(moment: Moment, name: str, robot: int) -> dict[Slot, Node]:

@@ -12,7 +12,6 @@ from bbsd.explanation.why.situation import Situation, require_robot, values_of_r
 from bbsd.expression.graph import evaluate, needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
-from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.situation import modules_in_a_situation, uncertain_sensors
 
 if TYPE_CHECKING:
@@ -158,8 +157,9 @@ def _number(meaning: Meaning, slot: Slot, value: Given) -> float:
         label = str(value).lower() if isinstance(value, bool) else str(value)
         if label not in labels:
             few = ", ".join(labels[:8])
+            what = "values" if slot.name in meaning.episode.named else "cells"
             raise BadSituation(
-                f"{slot.name}: {label!r} is none of its cells{did_you_mean(label, labels)}: {few}"
+                f"{slot.name}: {label!r} is none of its {what}{did_you_mean(label, labels)}: {few}"
             )
         return float(labels.index(label))
     if meaning.episode.after[slot].kind is Kind.TRUTH:
@@ -174,10 +174,7 @@ def _number(meaning: Meaning, slot: Slot, value: Given) -> float:
 
 
 def _labels(meaning: Meaning, slot: Slot) -> Sequence[str]:
-    written = meaning.spec.environment.sensors.get(slot.name)
-    if written is None or not is_partition(written):
-        return ()
-    return meaning.episode.partitions[slot.name]
+    return meaning.episode.labels(slot.name)
 
 
 def _shown(meaning: Meaning, slot: Slot, value: float) -> Value:

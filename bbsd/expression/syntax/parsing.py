@@ -10,6 +10,7 @@ import warnings
 from bbsd.errors import character_name
 from bbsd.expression.reserved import RESERVED, Use
 from bbsd.expression.syntax.mistakes import ExpressionError, Mistake
+from bbsd.expression.syntax.one_of import is_one_of, read_one_of
 from bbsd.expression.syntax.tree import (
     Binary,
     Call,
@@ -97,6 +98,8 @@ def parse(text: str) -> Expr:
     if match := MEANINGLESS.search(text):
         what = repr(match[0]) if match[0].isascii() and match[0].isprintable() else character_name(match[0])
         raise _error("BB050", f"the character {what} has no meaning in an expression", match.start(), 1)
+    if is_one_of(text):
+        return read_one_of(text, parse)
     flat = re.sub(r"[\n\t]", " ", text)
     stripped = flat.lstrip(" ")
     shift = len(flat) - len(stripped)

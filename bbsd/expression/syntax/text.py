@@ -15,6 +15,7 @@ from bbsd.expression.syntax.tree import (
     Logical,
     Name,
     Number,
+    OneOf,
     Truth,
     Unary,
 )
@@ -64,6 +65,11 @@ def _atom(expr: Number | Truth | Name) -> str:
 
 def _render(expr: Expr) -> tuple[str, int]:
     match expr:
+        case OneOf(names=names, start=start, at_random=at_random):
+            first = (
+                " starting at random" if at_random else "" if start is None else f" starting {render(start)}"
+            )
+            return f"one of [{', '.join(names)}]{first}", LEVELS["if"]
         case Number() | Truth() | Name():
             return _atom(expr), SIGN if isinstance(expr, Number) and expr.value < 0 else ATOM
         case Unary(operator="not", operand=operand):

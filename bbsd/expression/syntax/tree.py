@@ -115,7 +115,30 @@ class Generator:
     span: Span
 
 
-Expr = Number | Truth | Name | Unary | Binary | Comparison | Logical | Conditional | Call | Index | Generator
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """`one of [a, b]`, perhaps `starting` with an expression or `at random`: what a state can be, and at first is."""
+
+    names: tuple[str, ...]
+    start: Expr | None
+    at_random: bool
+    span: Span
+
+
+Expr = (
+    Number
+    | Truth
+    | Name
+    | Unary
+    | Binary
+    | Comparison
+    | Logical
+    | Conditional
+    | Call
+    | Index
+    | Generator
+    | OneOf
+)
 
 
 def parts(expr: Expr) -> tuple[Expr, ...]:
@@ -137,6 +160,8 @@ def parts(expr: Expr) -> tuple[Expr, ...]:
             return (of, index)
         case Generator(element=element, source=source):
             return (element, source)
+        case OneOf(start=start):
+            return () if start is None else (start,)
 
 
 def with_spans(expr: Expr, new: Callable[[Span], Span]) -> Expr:
@@ -148,7 +173,7 @@ def with_spans(expr: Expr, new: Callable[[Span], Span]) -> Expr:
                 return new(part)
             case tuple():
                 return tuple(map(renewed, part))
-            case str() | bool() | float():
+            case str() | bool() | float() | None:
                 return part
         return with_spans(part, new)
 

@@ -10,6 +10,7 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.forms import kind_by_form
 from bbsd.expression.kinds import Kind
+from bbsd.expression.scope import Named
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.expression.syntax.tree import Name, Span
 from bbsd.language.field_types import Expression
@@ -18,6 +19,7 @@ from bbsd.language.meaning.partitions import (
     MAX_CELLS,
     TRUTH_CELLS,
     Partition,
+    cells_of_names,
     cells_of_numbers,
     elaborate_partition,
     is_partition,
@@ -205,6 +207,8 @@ def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, rob
         names.findings.report(path, "BB041", *_not_listed(name, names))
         return None
     value = elaboration.value(Name(name, WHOLE), scope.at(path, robot))
+    if isinstance(value, Named):
+        return cells_of_names(value, names.graph)
     if isinstance(value, tuple) or Kind.NUMBER in (
         value.kind,
         _kind_by_form(environment.sensors.get(name), names),

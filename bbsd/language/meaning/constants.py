@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from bbsd.expression import elaboration
 from bbsd.expression.checks import require_finite
@@ -21,7 +21,7 @@ from bbsd.expression.graph import (
 )
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
-from bbsd.expression.scope import Binding, Findings, Path, Scope, Shared, Unusable, Value
+from bbsd.expression.scope import Binding, Findings, Named, Path, Plain, Scope, Shared, Unusable, Value
 from bbsd.kernel import streams
 from bbsd.language.field_types import expressions_in
 from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
@@ -43,9 +43,9 @@ class Constants:
     `values` are nested tuples of nodes: literals, or expressions of the generation.
     """
 
-    values: Mapping[str, Value]
+    values: Mapping[str, Plain]
     scalars: tuple[Node, ...]
-    leaves: Mapping[str, Value]
+    leaves: Mapping[str, Plain]
     """The same shapes, as the leaves by which a kernel reads them."""
     wholes: tuple[bool, ...]
     """For each scalar, whether it is certainly a whole number."""
@@ -84,7 +84,7 @@ def _generation(node: Node, generation: int) -> float:
     return float(generation) if node.data == GENERATION_SLOT else nan
 
 
-def _plain(value: Value) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
+def _plain(value: Plain) -> Any:  # noqa: ANN401 - a number or nested lists of numbers
     if isinstance(value, tuple):
         return [_plain(item) for item in value]
     return value_of(value) if value.literal else None
@@ -104,7 +104,7 @@ def read_constants(
     }
     base = Scope(graph, bindings, findings)
     constants_key = streams.fold(seed_key, streams.name_word("constants"))
-    values: dict[str, Value] = {}
+    values: dict[str, Plain] = {}
     for name in _dependency_order(constants, unusable):
         path: Path = ("constants", name)
         key = streams.fold(constants_key, streams.name_word(name))
@@ -126,24 +126,24 @@ def _dependency_order(constants: Mapping[str, Nested], unusable: frozenset[str])
     return dependency_order(uses_among(used))
 
 
-def _read(constant: Nested, scope: Scope, path: Path) -> Value:
+def _read(constant: Nested, scope: Scope, path: Path) -> Plain:
     if isinstance(constant, tuple):
         return tuple(_read(item, scope, (*path, index)) for index, item in enumerate(constant))
     value = elaboration.value(constant.tree, scope.at(path, 0, draws=True))
     return _numbers_only(value, scope.at(path), constant)
 
 
-def _numbers_only(value: Value, scope: Scope, expression: Expression) -> Value:
+def _numbers_only(value: Value, scope: Scope, expression: Expression) -> Plain:
     """Return a value with truths reported and replaced by unknown numbers."""
     if isinstance(value, tuple):
         return tuple(_numbers_only(item, scope, expression) for item in value)
-    if value.kind is Kind.TRUTH:
-        message = "a constant is a number or a list of numbers, not a truth"
+    if isinstance(value, Named) or value.kind is Kind.TRUTH:
+        message = f"a constant is a number or a list of numbers, not {value.kind.value}"
         return scope.mistake("BB055", message, expression.tree.span)
     return value
 
 
-def _with_draws(value: Value, key: int, scope: Scope, constant: Nested) -> Value:
+def _with_draws(value: Plain, key: int, scope: Scope, constant: Nested) -> Plain:
     """Return the value with its draws made from the stream of `key`; it may still depend on the generation."""
     if isinstance(value, tuple):
         texts = constant if isinstance(constant, tuple) else (constant,) * len(value)
@@ -152,7 +152,7 @@ def _with_draws(value: Value, key: int, scope: Scope, constant: Nested) -> Value
         drawn = replace_leaves(
             value, scope.graph, lambda node, operands: _draw(node, operands, key, scope.graph)
         )
-        return require_finite(drawn, expressions_in(constant)[0].tree.span, scope)
+        return cast("Node", require_finite(drawn, expressions_in(constant)[0].tree.span, scope))
     except _DrawsWithGenerationError:
         span = expressions_in(constant)[0].tree.span
         return scope.mistake("BB058", "a draw in a constant cannot depend on the generation", span)
@@ -172,7 +172,7 @@ def _draw(node: Node, operands: list[Node], key: int, graph: Graph) -> Node:
     return graph.truth(value=bool(drawn)) if node.kind is Kind.TRUTH else graph.number(drawn)
 
 
-def _leaves(value: Value, scalars: list[Node], graph: Graph) -> Value:
+def _leaves(value: Plain, scalars: list[Node], graph: Graph) -> Plain:
     """Return the leaves by which a kernel reads a constant's scalars, and append those to `scalars`."""
     if isinstance(value, tuple):
         return tuple(_leaves(item, scalars, graph) for item in value)

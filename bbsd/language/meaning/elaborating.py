@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.graph import Graph, GraphTooLargeError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
 from bbsd.expression.syntax.mistakes import Mistake, TooManyMistakesError
+from bbsd.language.meaning.choices import report_names_of_values
 from bbsd.language.meaning.constants import read_constants
 from bbsd.language.meaning.contradictions import report_contradictions, with_generations
 from bbsd.language.meaning.definitions import (
@@ -55,7 +56,9 @@ def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings
     graph = Graph()
     definitions = read_definitions(spec.environment.definitions, findings)
     unusable = {name: Unusable() for name in broken}
-    unusable |= report_duplicates(shared_namespace(spec, definitions), findings)
+    namespace = shared_namespace(spec, definitions)
+    unusable |= report_duplicates(namespace, findings)
+    report_names_of_values(spec.environment, namespace, findings)
     unusable |= report_unordered(spec, definitions, findings)
     constants = read_constants(spec.constants, seed_key(seed), graph, findings, frozenset(unusable))
     episode = elaborate_episode(Names(spec, graph, findings, constants, definitions, unusable))

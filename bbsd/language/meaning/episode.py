@@ -7,7 +7,7 @@ node, what a phase reads is just which nodes its names stand for.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -15,13 +15,14 @@ from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
+from bbsd.expression.naming import one_reading, report_unknown_values
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable, Value
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
 from bbsd.language.meaning.forms import Form, fitted, form_of, regular
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import Names, Stored, read_slots, refilled, scalars_by_slot
+from bbsd.language.meaning.names import Names, Stored, names_in, read_slots, refilled, scalars_by_slot
 from bbsd.language.meaning.outside.checking import report_sent
 from bbsd.language.meaning.outside.exchange import (
     ONLY_OUTSIDE,
@@ -78,6 +79,12 @@ class Episode:
     """What it is told at each step: the values that these slots have in `acted`."""
     fractions: frozenset[Slot] = frozenset()
     """What of `outside` need not be a whole number."""
+    named: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """For world, state, sensors and definitions that are one of several names, these names; a value is their index."""
+
+    def labels(self, name: str) -> Labels:
+        """Return what the numbers 0, 1, ... of a value mean: cells, or names; nothing for other values."""
+        return self.partitions.get(name) or self.named.get(name, ())
 
     @property
     def nodes(self) -> list[Node]:
@@ -129,12 +136,13 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
     then = _apply_dynamics(acted, acting.scope, forms, names)
 
     outcome = Moment(names, then, names.step, before=decision.scope)
+    defined = definitions_at(outcome)
     episode = Episode(
         modules,
         start=_slots_of_state(first, names) | _slots_of_sensors(beginning),
         acted=_slots_of_state(acted, names),
         after=_slots_of_state(then, names) | _slots_of_sensors(outcome),
-        definitions=definitions_at(outcome),
+        definitions=scalars_defined(defined),
         choices=choices,
         reward=_reward(outcome),
         ends=_ends(outcome),
@@ -148,6 +156,7 @@ def elaborate_episode(names: Names, fault: SensorFault | None = None) -> Episode
         outside=rows_of_outside(names.spec.environment),
         sent=rows_of_sent(names.spec.environment),
         fractions=fractions_outside(names.spec.environment),
+        named=_named(first, beginning.sensed.values, defined),
     )
     if felt is not None and fault is not None:
         after = Perceived(names, then, names.step, fault, before=perceived.scope).slots()
@@ -192,7 +201,8 @@ def starting_values(names: Names) -> Stored:
             block, owner = ("world", names.team) if name in environment.world else ("state", robot)
             inner = scope.at(("environment", block, name), owner, draws=True)
             tree = getattr(environment, block)[name].tree
-            starts[name, robot] = regular(elaboration.value(tree, inner), tree.span, inner)
+            value = one_reading(elaboration.value(tree, inner), tree.span, inner)
+            starts[name, robot] = regular(value, tree.span, inner)
         return starts[name, robot]
 
     bindings: dict[str, Binding] = {
@@ -284,21 +294,42 @@ def _apply_dynamics(acted: Stored, scope: Scope, forms: Mapping[str, Form], name
 
 
 def _evaluate_as(form: Form, name: str, expression: Expression, scope: Scope) -> Value:
+    if form.names:
+        report_unknown_values(expression.tree, name, form.names, scope)
     value = elaboration.value(expression.tree, scope)
     return fitted(value, form, name, expression.tree.span, scope)
 
 
-def definitions_at(outcome: Moment) -> dict[Slot, Node]:
+def definitions_at(outcome: Moment) -> dict[tuple[str, int], Value]:
     """Return definitions without parameters, robot by robot; look through the others only for mistakes."""
     names = outcome.names
-    nodes: dict[Slot, Node] = {}
+    values: dict[tuple[str, int], Value] = {}
     for name, definition in names.definitions.items():
         for robot in names.robots:
             unknown = dict.fromkeys(definition.parameters, names.graph.unknown)
             scope = replace(outcome.scope.at(definition.path, robot), local=unknown)
             value = elaboration.value(definition.expression, scope)
-            nodes |= {} if definition.parameters else scalars_by_slot(value, name, robot)
-    return nodes
+            if not definition.parameters:
+                values[name, robot] = value
+    return values
+
+
+def scalars_defined(defined: Mapping[tuple[str, int], Value]) -> dict[Slot, Node]:
+    """Return the scalars of what is defined, robot by robot."""
+    return {
+        slot: node
+        for (name, robot), value in defined.items()
+        for slot, node in scalars_by_slot(value, name, robot).items()
+    }
+
+
+def _named(
+    first: Stored, sensed: Mapping[tuple[str, int], Value], defined: Mapping[tuple[str, int], Value]
+) -> dict[str, tuple[str, ...]]:
+    """Return the names of all values that have some, by what has them."""
+    values = {name: of_robots[0] for name, of_robots in first.items()}
+    values |= {name: value for (name, robot), value in (*sensed.items(), *defined.items()) if not robot}
+    return {name: names for name, value in values.items() if (names := names_in(value))}
 
 
 def _reward(outcome: Moment) -> dict[str, tuple[Node, ...]]:

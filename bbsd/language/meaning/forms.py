@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.checks import require_kind
 from bbsd.expression.kinds import Kind
+from bbsd.expression.naming import settled
+from bbsd.expression.scope import Named
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bbsd.expression.graph import Graph, Node
-    from bbsd.expression.scope import Scope, Value
+    from bbsd.expression.scope import Names, Scope, Value
     from bbsd.expression.syntax.tree import Span
 
-PLURAL = {Kind.NUMBER: "numbers", Kind.TRUTH: "truths"}
+PLURAL = {Kind.NUMBER: "numbers", Kind.TRUTH: "truths", Kind.NAMED: "named values"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +28,13 @@ class Form:
     """The kind of the value, or of all elements of a list."""
     lengths: tuple[int, ...] = ()
     """The length of a list, then of the lists in it, and so on; none for a single value."""
+    names: Names = ()
+    """What the value, or each element, is one of; empty where these have no names."""
 
     @property
     def element(self) -> Form:
         """The form of a list's elements."""
-        return Form(self.kind, self.lengths[1:])
+        return replace(self, lengths=self.lengths[1:])
 
     @property
     def text(self) -> str:
@@ -42,7 +46,7 @@ class Form:
     @property
     def example(self) -> str:
         """How a value of this form is written."""
-        element = "false" if self.kind is Kind.TRUTH else "0"
+        element = self.names[0] if self.names else "false" if self.kind is Kind.TRUTH else "0"
         for name, length in zip("kji"[-len(self.lengths) :], reversed(self.lengths), strict=False):
             element = f"list({element} for {name} in range({length}))"
         return element
@@ -61,14 +65,18 @@ def _of_what(kind: Kind, count: int) -> str:
 
 def form_of(value: Value) -> Form | None:
     """Return the form of a value; None where its lists are empty, differ in length, or mix numbers and truths."""
+    if isinstance(value, Named):
+        return Form(Kind.NAMED, names=value.names)
     if not isinstance(value, tuple):
         return Form(value.kind)
     forms = [form_of(item) for item in value]
     known = {form for form in forms if form is not None}
-    lengths, kinds = {form.lengths for form in known}, {form.kind for form in known} - {Kind.UNKNOWN}
+    lengths, kinds = {form.lengths for form in known}, {(form.kind, form.names) for form in known}
+    kinds.discard((Kind.UNKNOWN, ()))
     if len(lengths) != 1 or len(kinds) > 1 or None in forms:
         return None
-    return Form(kinds.pop() if kinds else Kind.UNKNOWN, (len(value), *lengths.pop()))
+    kind, names = kinds.pop() if kinds else (Kind.UNKNOWN, ())
+    return Form(kind, (len(value), *lengths.pop()), names)
 
 
 def regular(value: Value, span: Span, scope: Scope) -> Value:
@@ -80,7 +88,7 @@ def regular(value: Value, span: Span, scope: Scope) -> Value:
     if not all(map(_is_filled, _all_items(value))):
         message, advice = "a list without elements holds nothing", "give it one or more"
     elif len({item.kind for item in _all_items(value) if not isinstance(item, tuple)}) > 1:
-        message, advice = "numbers and truths in one list", "keep them in two lists"
+        message, advice = "values of different kinds in one list", "keep them in two lists"
     else:
         message = "lists of different lengths, or single values beside lists, in one list"
         advice = "let all lists in a list be of one length"
@@ -108,19 +116,21 @@ def fitted(value: Value, form: Form, name: str, span: Span, scope: Scope, instea
     if not isinstance(value, tuple) and value.kind is Kind.UNKNOWN:
         return form.unknown(scope.graph)
     if not form.lengths and not isinstance(value, tuple):
-        return require_kind(value, form.kind, span, scope)
+        return _of_form(value, form, name, span, scope)
     if _lengths(value) != form.lengths:
         message = f"{name} is {form.text}, and this is {_text_of(value)}"
         advice = f"write {form.example}{instead}" if form.lengths else "take an element or an aggregate of it"
         scope.mistake("BB132", message, span, advice)
         return form.unknown(scope.graph)
-    return _of_kind(value, form.kind, span, scope)
+    return _of_form(value, form, name, span, scope)
 
 
-def _of_kind(value: Value, kind: Kind, span: Span, scope: Scope) -> Value:
+def _of_form(value: Value, form: Form, name: str, span: Span, scope: Scope) -> Value:
     if isinstance(value, tuple):
-        return tuple(_of_kind(item, kind, span, scope) for item in value)
-    return value if kind is Kind.UNKNOWN else require_kind(value, kind, span, scope)
+        return tuple(_of_form(item, form, name, span, scope) for item in value)
+    if form.names:
+        return settled(value, name, form.names, span, scope)
+    return value if form.kind is Kind.UNKNOWN else require_kind(value, form.kind, span, scope)
 
 
 def _lengths(value: Value) -> tuple[int, ...] | None:
@@ -143,7 +153,7 @@ def scalars_of(value: Value, place: tuple[int, ...] = ()) -> Iterator[tuple[tupl
         for index, item in enumerate(value):
             yield from scalars_of(item, (*place, index))
     else:
-        yield place, value
+        yield place, value.node if isinstance(value, Named) else value
 
 
 def with_scalar(value: Value, place: tuple[int, ...], scalar: Node) -> Value:

@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, cast
 
 from bbsd.expression import elaboration
+from bbsd.expression.naming import one_reading
 from bbsd.expression.scope import Binding, Path, PerRobot, Scope, Shared, Unseen, Unusable, Value
 from bbsd.language.meaning.partitions import Partition, elaborate_partition, is_partition
 
@@ -48,7 +49,7 @@ class Moment:
         if (name, robot) not in values:
             sensor = cast("Expression", self.names.spec.environment.sensors[name])
             scope = self.scope.at(("environment", "sensors", name), robot, draws=True)
-            values[name, robot] = elaboration.value(sensor.tree, scope)
+            values[name, robot] = one_reading(elaboration.value(sensor.tree, scope), sensor.tree.span, scope)
         return values[name, robot]
 
     def partition(self, name: str, robot: int) -> Partition | None:

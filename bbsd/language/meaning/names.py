@@ -9,13 +9,25 @@ from typing import TYPE_CHECKING
 from bbsd.expression.graph import Graph, Level, Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
-from bbsd.expression.scope import Binding, Definition, Findings, PerRobot, Scope, Shared, Unusable, Value
+from bbsd.expression.scope import (
+    Binding,
+    Definition,
+    Findings,
+    Named,
+    PerRobot,
+    Scope,
+    Shared,
+    Unusable,
+    Value,
+)
+from bbsd.language.meaning.choices import choices_of
 from bbsd.language.meaning.outside.exchange import size_of_field
 from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from bbsd.expression.scope import Names as ValueNames
     from bbsd.language.meaning.constants import Constants
     from bbsd.language.models import Spec
 
@@ -58,6 +70,11 @@ class Names:
         return size_of_field(self.spec.environment, node.slot.name)
 
     @property
+    def choices(self) -> Mapping[str, tuple[ValueNames, ...]]:
+        """For each name that a state or a value of the world can be one of, the lists of names that have it."""
+        return choices_of(self.spec.environment)
+
+    @property
     def step(self) -> Node:
         """The number of the present step."""
         return self.graph.leaf("step", None, Kind.NUMBER, Level.STEP)
@@ -93,6 +110,7 @@ class Names:
             robots=len(self.robots),
             static=self.constants.static,
             size=self.size,
+            choices=self.choices,
             starting=starting,
             before=before,
         )
@@ -111,12 +129,18 @@ def read_slots(
         return tuple(
             read_slots(name, robot, item, graph, (*position, index)) for index, item in enumerate(like)
         )
-    return read_slot(Slot(name, robot, position), like, graph)
+    slot = Slot(name, robot, position)
+    if isinstance(like, Named):
+        return like.with_nodes(lambda node: read_slot(slot, node, graph))
+    return read_slot(slot, like, graph)
 
 
 def refilled(shape: Value, nodes: Iterator[Node]) -> Value:
-    """Return a value of the same shape made of other nodes."""
-    return tuple(refilled(item, nodes) for item in shape) if isinstance(shape, tuple) else next(nodes)
+    """Return a value of the same shape and names made of other nodes."""
+    if isinstance(shape, tuple):
+        return tuple(refilled(item, nodes) for item in shape)
+    node = next(nodes)
+    return shape.with_nodes(lambda _: node) if isinstance(shape, Named) else node
 
 
 def scalars_by_slot(
@@ -129,4 +153,11 @@ def scalars_by_slot(
             for index, item in enumerate(value)
             for slot, node in scalars_by_slot(item, name, robot, (*position, index)).items()
         }
-    return {Slot(name, robot, position): value}
+    return {Slot(name, robot, position): value.node if isinstance(value, Named) else value}
+
+
+def names_in(value: Value) -> ValueNames | None:
+    """Return the names of which a value is one, or the elements of a list are; None for other values."""
+    if isinstance(value, tuple):
+        return names_in(value[0]) if value else None
+    return value.names if isinstance(value, Named) else None

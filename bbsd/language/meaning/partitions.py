@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.naming import one_reading
+from bbsd.expression.scope import Named
 from bbsd.expression.syntax.mistakes import KEY
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Call, Expr, Name, Span
@@ -59,7 +61,9 @@ def elaborate_partition(
 
 
 def _truth(expression: Expression, scope: Scope) -> Partition | None:
-    value = elaboration.value(expression.tree, scope)
+    value = one_reading(elaboration.value(expression.tree, scope), expression.tree.span, scope)
+    if isinstance(value, Named):
+        return cells_of_names(value, scope.graph)
     if isinstance(value, tuple) or value.kind is Kind.NUMBER:
         what = "a list" if isinstance(value, tuple) else "a number"
         advice = f"cut it: cut({expression.text}, ...) or values({expression.text}, first, last), or write a condition"
@@ -68,6 +72,11 @@ def _truth(expression: Expression, scope: Scope) -> Partition | None:
         )
         return None
     return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", value))
+
+
+def cells_of_names(value: Named, graph: Graph) -> Partition:
+    """Return a cell for each name that a value can be one of."""
+    return Partition(value.names, graph.apply("clamp_index", value.node, data=len(value.names) - 1))
 
 
 def _cut(tree: Call, scope: Scope) -> Partition | None:

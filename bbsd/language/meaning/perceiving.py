@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
+from bbsd.expression.scope import Named
 from bbsd.kernel.streams import name_word
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.names import read_slots, scalars_by_slot
@@ -82,6 +83,9 @@ class Perceived(Moment):
     def _faulty(self, value: Value, robot: int, place: tuple[int, ...]) -> Value:
         if isinstance(value, tuple):
             return tuple(self._faulty(item, robot, (*place, index)) for index, item in enumerate(value))
+        if isinstance(value, Named):
+            slot = Slot(perceived_name(self._fault.sensor, self.names), robot, place)
+            return value.with_nodes(lambda node: self._scalar(node, slot))
         return self._scalar(value, Slot(perceived_name(self._fault.sensor, self.names), robot, place))
 
     def _scalar(self, true: Node, slot: Slot) -> Node:

@@ -13,6 +13,7 @@ from bbsd.language.meaning.episode import (
     definitions_at,
     forms_of,
     modules_at,
+    scalars_defined,
     slots_read,
     starting_values,
     stored_sensors,
@@ -59,7 +60,8 @@ def definitions_at_the_start(meaning: Meaning) -> dict[Slot, Node]:
     beginning = Moment(names, first, names.graph.number(0), starting=True)
     sensed = decision_at(slots_read(first, names), beginning, names).sensed
     stored = slots_read(first, names)
-    return definitions_at(Moment(names, stored, names.graph.number(0), sensed=sensed, starting=True))
+    start = Moment(names, stored, names.graph.number(0), sensed=sensed, starting=True)
+    return scalars_defined(definitions_at(start))
 
 
 def uncertain_sensors(spec: Spec) -> set[str]:

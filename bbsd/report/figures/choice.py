@@ -137,7 +137,12 @@ def _kind(values: Sequence[Value]) -> Kind:
 
 
 def _cells(name: str, slots: dict[Slot, list[Value]], trace: Trace) -> tuple[str, ...]:
-    """Return the cells of a sensor: all where a behavior has it as an input, else those that it was in, in turn."""
+    """Return the names that a value can be one of, or the cells of a sensor.
+
+    These are all where a behavior has it as an input, else those that it was in, in turn.
+    """
+    if name in trace.named:
+        return trace.named[name]
     for layer in trace.layers:
         if name in layer.inputs:
             return tuple(layer.inputs[name])

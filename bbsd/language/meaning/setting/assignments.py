@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Node
+from bbsd.expression.naming import report_unknown_values
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.syntax.tree import Name
-from bbsd.language.meaning.forms import Form, fitted, scalars_of
+from bbsd.language.meaning.forms import fitted, scalars_of
 from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, what_sets
 from bbsd.language.meaning.setting.targets import (
     Target,
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from bbsd.expression.node_data import Variable
     from bbsd.expression.scope import Path, Scope, Value
     from bbsd.language.field_types import Expression
+    from bbsd.language.meaning.forms import Form
     from bbsd.language.meaning.names import Names
 
 Assignments = dict["Variable", tuple[Node, ...]]
@@ -90,7 +93,9 @@ class _Setting:
         for path, target, expression in written:
             inner, key = self.scope.at(path, robot, draws=True), str(path[-1])
             indices = indices_of(target, self.form, inner)
-            form = Form(self.form.kind, self.form.lengths[len(target.indices) :])
+            form = replace(self.form, lengths=self.form.lengths[len(target.indices) :])
+            if form.names:
+                report_unknown_values(expression.tree, key, form.names, inner)
             value_set = elaboration.value(expression.tree, inner)
             instead = "" if isinstance(value_set, tuple) else f", or set an element: {key}[0]: ..."
             new = fitted(value_set, form, key, expression.tree.span, inner, instead)

@@ -11,7 +11,7 @@ from bbsd.expression import elaboration
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import is_plain_number
-from bbsd.expression.scope import Draws
+from bbsd.expression.scope import Draws, Named
 from bbsd.expression.syntax.mistakes import KEY, ExpressionError, Mistake, in_key
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.tree import Expr, Index, Name, with_spans
@@ -117,6 +117,10 @@ def _replaced(old: Value, indices: Sequence[Node], new: Value, hit: Node, graph:
         return tuple(_replaced(one, (), other, hit, graph) for one, other in zip(old, new, strict=True))
     if isinstance(old, tuple) or isinstance(new, tuple):
         raise TypeError("what is set has another form")
+    if isinstance(old, Named) and isinstance(new, Named):
+        return Named(((old.names, graph.apply("select", hit, new.node, old.node)),))
+    if isinstance(old, Named) or isinstance(new, Named):
+        return graph.unknown
     return graph.apply("select", hit, new, old)
 
 
