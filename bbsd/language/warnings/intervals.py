@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
-    from bbsd.expression.scope import Value
+    from bbsd.expression.scope import Plain
     from bbsd.language.meaning.meaning import Meaning
 
 Interval = tuple[float, float]
@@ -136,7 +136,7 @@ def _constants(meaning: Meaning) -> list[Interval]:
     return bounds
 
 
-def _scalars(value: Value) -> list[Node]:
+def _scalars(value: Plain) -> list[Node]:
     return [node for item in value for node in _scalars(item)] if isinstance(value, tuple) else [value]
 
 
