@@ -12,6 +12,7 @@ from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
 from bbsd.language.meant.placing import placed
+from bbsd.language.meant.texts import refined
 from bbsd.language.meant.understanding import as_meant
 from bbsd.language.overrides import FILE as OVERRIDES
 from bbsd.language.overrides import overrides_source, read_overrides, with_overrides
@@ -168,15 +169,23 @@ def _diagnoses(
 
     Where the reading of YAML already reported a mistake, there is no other.
     """
-    diagnoses = [each for each in files.mistakes if not _is_explained(each, files, explained)]
-    unreadable = {_start(diagnosis.place) for diagnosis in diagnoses}
+    told = [each for each in files.mistakes if not _is_explained(each, files, explained)]
+    better = _better_told(files) if told else {}
+    unreadable = {_start(diagnosis.place) for diagnosis in told}
+    diagnoses = [better.get(each, each) for each in told]
     for path, mistake in mistakes:
         place = _place((path, mistake), files, data, overrides)
         starts = {_start(place), _start(files.place(existing(path, data)))}
-        if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _has_merged(files)):
+        if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _lacks_a_part(files)):
             correction = None if place.file == OVERRIDES else placed(mistake.correction, path, files)
             diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
+
+
+def _better_told(files: Lineage) -> dict[Diagnosis, Diagnosis]:
+    """Return how mistakes of YAML are told, by how its reading told them."""
+    pairs = (zip(each.diagnoses, refined(each), strict=True) for each in files.documents)
+    return {before: after for pair in pairs for before, after in pair}
 
 
 def _is_explained(diagnosis: Diagnosis, files: Lineage, explained: Iterable[Path]) -> bool:
@@ -195,8 +204,9 @@ def _start(place: Place) -> tuple[str, int, int]:
     return place.file, place.line, place.column
 
 
-def _has_merged(files: Lineage) -> bool:
-    return any(diagnosis.code == "BB007" for diagnosis in files.mistakes)
+def _lacks_a_part(files: Lineage) -> bool:
+    """Return whether keys were not read: those that are merged, or that stand in a second document."""
+    return any(diagnosis.code in ("BB007", "BB015") for diagnosis in files.mistakes)
 
 
 def _place(located: LocatedMistake, files: Lineage, data: Data, overrides: Sequence[Override]) -> Place:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from yaml import MarkedYAMLError
 
-from bbsd.errors import Diagnosis, character_name
+from bbsd.errors import Correction, Diagnosis, character_name
 from bbsd.text.core_schema import is_text, meaning
 from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
 from bbsd.text.reading.events import Event, events
@@ -138,11 +138,25 @@ def _node(reading: _Reading, event: Event, depth: int, longest: int = MAX_TEXT) 
     reading.count(event, _size(event), depth)
     if event.tag is not None:
         negated = event.tag.lstrip("!") if event.tag.lstrip("!").isidentifier() else "..."
-        advice = f'remove it; if an expression is meant, write "not {negated}"'
-        reading.report("BB009", f'a spec has no tags such as "{event.tag}"', event, advice)
+        advice = f"remove it; if an expression is meant, write not {negated}"
+        reading.mistakes.append(
+            Diagnosis(
+                "BB009",
+                f'a spec has no tags such as "{event.tag}"',
+                reading.source.place(event.start, event.end),
+                advice,
+                _negation(reading.source, event),
+            )
+        )
     if event.anchor is None:
         return _unanchored(reading, event, depth, longest)
     return _anchored(reading, event, event.anchor, depth, longest)
+
+
+def _negation(source: Source, event: Event) -> Correction | None:
+    """Return the correction of `!docked`, which YAML takes for a tag."""
+    match = re.compile(r"!\s*(?=[A-Za-z(])").match(source.text, event.start)
+    return Correction((source.edit(event.start, match.end(), "not "),)) if match else None
 
 
 def _unanchored(reading: _Reading, event: Event, depth: int, longest: int) -> Scalar | Sequence | Mapping:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.errors import Diagnosis
-from bbsd.text.nodes import Entry, Mapping, Node, Scalar, Sequence
+from bbsd.errors import Correction, Diagnosis
+from bbsd.text.nodes import Alias, Entry, Mapping, Node, Scalar, Sequence
 from bbsd.text.reading.traps import glued_mistake
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def entries_of(
     entries: dict[str, Entry] = {}
     mistakes: list[Diagnosis] = []
     for key, value in pieces:
-        mistake = _key_mistake(source, key, entries)
+        mistake = _key_mistake(source, key, value, entries, flow)
         if isinstance(key, Scalar):
             mistake = mistake or glued_mistake(source, key, value, flow)
             if not _is_merge(key):
@@ -37,17 +37,34 @@ def entries_of(
     return entries, mistakes
 
 
-def _key_mistake(source: Source, key: Node, entries: dict[str, Entry]) -> Diagnosis | None:
+def _key_mistake(
+    source: Source, key: Node, value: Node, entries: dict[str, Entry], flow: bool
+) -> Diagnosis | None:
     place = source.place(key.start, key.end)
     if not isinstance(key, Scalar) or not isinstance(key.data, str):
         return Diagnosis("BB008", f"{_named(key)} cannot be a key", place, "keys are names")
     if _is_merge(key):
         advice = "write the keys out, or mark a value with &name and repeat it with *name"
-        return Diagnosis("BB007", "YAML 1.2 has no merge key <<", place, advice)
+        return Diagnosis(
+            "BB007", "YAML 1.2 has no merge key <<", place, advice, _written_out(source, key, value, flow)
+        )
     if key.text in entries:
         line = source.line_number(entries[key.text].key.start)
         return Diagnosis("BB006", f'the key "{key.text}" is given twice, first in line {line}', place)
     return None
+
+
+def _written_out(source: Source, key: Scalar, value: Node, flow: bool) -> Correction | None:
+    """Return the correction that writes out what is merged, if that is a mapping with a line for each entry."""
+    target = value.target if isinstance(value, Alias) else value
+    if not isinstance(target, Mapping) or not target.entries:
+        return None
+    entries = [source.text[entry.key.start : entry.value.end] for entry in target.entries.values()]
+    if any("\n" in entry for entry in entries):
+        return None
+    indent = " " * (key.start - source.line_start(key.start))
+    text = ", ".join(entries) if flow else f"\n{indent}".join(entries)
+    return Correction((source.edit(key.start, value.end, text),))
 
 
 def _is_merge(key: Scalar) -> bool:

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.errors import Diagnosis
+from bbsd.errors import Correction, Diagnosis
 from bbsd.text.reading.traps import glued
 
 if TYPE_CHECKING:
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from yaml import MarkedYAMLError
 
+    from bbsd.errors import Edit
     from bbsd.text.source import Source
 
 LONGEST_QUOTED = 60
@@ -41,10 +42,15 @@ class _Trouble:
         return self.source.text[self.source.line_start(self.at) : self.at]
 
     def says(
-        self, message: str, advice: str = "", start: int | None = None, end: int | None = None
+        self,
+        message: str,
+        advice: str = "",
+        start: int | None = None,
+        end: int | None = None,
+        edit: Edit | None = None,
     ) -> Diagnosis:
         place = self.source.place(self.at if start is None else start, end)
-        return Diagnosis("BB004", message, place, advice)
+        return Diagnosis("BB004", message, place, advice, Correction((edit,)) if edit else None)
 
 
 def explain_syntax_error(source: Source, error: MarkedYAMLError) -> Diagnosis:
@@ -84,9 +90,12 @@ def _open_bracket(trouble: _Trouble) -> Diagnosis:
         return trouble.says(
             f'a value inside {{...}} or [...] cannot contain "{trouble.character}" without quotes', advice
         )
-    if not trouble.character or _is_outside(source, trouble):
-        return trouble.says(f'this "{bracket}" is never closed', start=trouble.since)
     closing = "}" if bracket == "{" else "]"
+    if not trouble.character or _is_outside(source, trouble):
+        end = _end_of_text(source, trouble.since)
+        edit = source.edit(end, end, closing)
+        advice = f'write "{closing}" behind its last value'
+        return trouble.says(f'this "{bracket}" is never closed', advice, start=trouble.since, edit=edit)
     return trouble.says(f'there is a comma or a "{closing}" missing before this')
 
 
@@ -97,18 +106,39 @@ def _is_outside(source: Source, trouble: _Trouble) -> bool:
     return _indent(source, trouble.at) <= _indent(source, trouble.since)
 
 
+def _end_of_text(source: Source, offset: int) -> int:
+    """Return the offset where the text on an offset's line ends, before blanks and a comment."""
+    start = source.line_start(offset)
+    return start + len(COMMENT.sub("", source.text[start : source.line_end(offset)]).rstrip())
+
+
 def _indent(source: Source, offset: int) -> int:
     line = source.line(source.line_number(offset))
     return len(line) - len(line.lstrip(" "))
 
 
 def _needs_quotes(trouble: _Trouble, start: int | None = None) -> Diagnosis:
-    start = trouble.since if start is None else start
+    start = _behind_tag(trouble, trouble.since if start is None else start)
     end = trouble.source.line_end(start)
     value = COMMENT.sub("", trouble.source.text[start:end]).rstrip()
-    return trouble.says(
-        f'a value that begins with "{value[:1]}" needs quotes', _quoting(value), start, start + len(value)
+    message, edit = (
+        f'a value that begins with "{value[:1]}" needs quotes',
+        _quoted(trouble.source, start, value),
     )
+    return trouble.says(message, _quoting(value), start, start + len(value), edit)
+
+
+def _behind_tag(trouble: _Trouble, start: int) -> int:
+    """Return where the value of a line begins if YAML took its beginning, such as `!(a`, for a tag."""
+    line_start = trouble.source.line_start(start)
+    lead = LEAD.match(trouble.source.text[line_start:start])
+    before = trouble.source.text[line_start + lead.end() : start] if lead else ""
+    return line_start + lead.end() if lead and before.startswith("!") else start
+
+
+def _quoted(source: Source, start: int, value: str) -> Edit | None:
+    """Return the edit that puts a value in quotes; None where that needs escapes."""
+    return None if '"' in value or "\\" in value else source.edit(start, start + len(value), f'"{value}"')
 
 
 def _quoting(value: str) -> str:
@@ -172,7 +202,8 @@ def _second_colon(trouble: _Trouble) -> Diagnosis:
 
 def _colon_in_value(trouble: _Trouble, start: int) -> Diagnosis:
     value = COMMENT.sub("", trouble.source.text[start : trouble.source.line_end(start)]).rstrip()
-    return trouble.says("a value with a colon and a blank in it needs quotes", _quoting(value))
+    message = "a value with a colon and a blank in it needs quotes"
+    return trouble.says(message, _quoting(value), edit=_quoted(trouble.source, start, value))
 
 
 def _line_above(source: Source, offset: int) -> int:
@@ -188,8 +219,18 @@ def _key_without_colon(trouble: _Trouble) -> Diagnosis:
 
 
 def _no_colon(trouble: _Trouble, start: int) -> Diagnosis:
-    end = trouble.source.line_end(start)
-    return trouble.says("there is no colon after this key", "a line is `key: value` or `- item`", start, end)
+    source, end = trouble.source, trouble.source.line_end(start)
+    key = source.text[start : _end_of_text(source, start)]
+    if mark := next((mark for mark in ("//", "/*") if key.startswith(mark)), None):
+        edit = source.edit(start, start + len(mark), "#")
+        return trouble.says(f'a comment begins with #, not with "{mark}"', "", start, end, edit)
+    edit = source.edit(start + len(key), start + len(key), ":")
+    message = (
+        f'there is no colon after "{key}"'
+        if len(key) <= LONGEST_QUOTED
+        else "there is no colon after this key"
+    )
+    return trouble.says(message, "a line is `key: value` or `- item`", start, end, edit)
 
 
 def _closes_nothing(trouble: _Trouble) -> Diagnosis:

@@ -6,7 +6,7 @@ import re
 from itertools import islice
 from typing import TYPE_CHECKING, TypeAlias
 
-from bbsd.errors import Diagnosis
+from bbsd.errors import Correction, Diagnosis
 from bbsd.text.nodes import Node, Scalar
 
 if TYPE_CHECKING:
@@ -82,9 +82,17 @@ def comma_mistakes(source: Source, joined: Sequence[Scalar]) -> list[Diagnosis]:
             "a comma ends a value inside {...} and [...], even between parentheses",
             source.place(scalar.start, scalar.end),
             "write the value on its own line under its key, or in quotes",
+            _in_quotes(source, scalar),
         )
         for scalar in joined
     ]
+
+
+def _in_quotes(source: Source, scalar: Scalar) -> Correction | None:
+    text = source.text[scalar.start : scalar.end]
+    if '"' in text or "\\" in text or "\n" in text:
+        return None
+    return Correction((source.edit(scalar.start, scalar.end, f'"{text}"'),))
 
 
 def glued_mistake(source: Source, key: Scalar, value: Node, flow: bool) -> Diagnosis | None:
@@ -103,7 +111,9 @@ def glued(source: Source, start: int) -> Diagnosis | None:
     if not match:
         return None
     message = f'there is no blank after the colon of "{match[1]}:"'
-    return Diagnosis("BB017", message, source.place(start, match.end() - 1), "write `key: value`")
+    colon = match.end() - 1
+    blank = Correction((source.edit(colon, colon, " "),))
+    return Diagnosis("BB017", message, source.place(start, colon), "write `key: value`", blank)
 
 
 def empty_block_mistake(source: Source, scalar: Scalar) -> Diagnosis | None:

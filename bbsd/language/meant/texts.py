@@ -1,0 +1,110 @@
+"""Mistakes of YAML's reading, told by what was meant where the language knows it, with proven corrections."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bbsd.errors import Correction
+from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.foreign.translating import translated
+from bbsd.expression.syntax.mistakes import ExpressionError, Rewriting
+from bbsd.expression.syntax.parsing import parse
+from bbsd.language.meant.layout import MAX_CHARACTERS
+from bbsd.language.validation import validate
+from bbsd.text import read
+from bbsd.text.writing.scalars import scalar_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from bbsd.errors import Diagnosis, Edit
+    from bbsd.text import Document, Source
+
+TAB_WIDTHS = (2, 4, 8, 6, 3, 1)
+
+
+def refined(document: Document) -> tuple[Diagnosis, ...]:
+    """Return the diagnoses of a document, better told, each with a correction only if that helps."""
+    if len(document.source.text) > MAX_CHARACTERS:
+        return tuple(replace(each, correction=None) for each in document.diagnoses)
+    return tuple(_refined(each, document) for each in document.diagnoses)
+
+
+def _refined(diagnosis: Diagnosis, document: Document) -> Diagnosis:
+    source = document.source
+    if diagnosis.code == "BB005":
+        return replace(diagnosis, correction=_without_tabs(document))
+    if diagnosis.correction is None:
+        return diagnosis
+    better = _foreign(diagnosis, source) if diagnosis.code == "BB004" else diagnosis
+    corrections = (each.correction for each in (better, diagnosis) if each.correction is not None)
+    proven = next((each for each in corrections if _helps(each.edits, document)), None)
+    return replace(better, correction=proven)
+
+
+def _foreign(diagnosis: Diagnosis, source: Source) -> Diagnosis:
+    """Return what is said of a value that YAML cannot read where it is an expression of another language."""
+    (edit,) = diagnosis.correction.edits if diagnosis.correction else ()
+    if not edit.text.startswith('"'):
+        return diagnosis
+    value = edit.text[1:-1]
+    try:
+        parse(value)
+    except ExpressionError as error:
+        mistake = translated(value, error.mistake, _key_before(edit, source))
+        if mistake.message == error.mistake.message or not isinstance(mistake.correction, Rewriting):
+            return diagnosis
+        start, length = mistake.correction.span
+        new = value[:start] + mistake.correction.text + value[start + length :]
+        written = replace(edit, text=scalar_text(new) if reads(new) else new)
+        column = edit.column + mistake.span.start
+        place = replace(diagnosis.place, line=edit.line, column=column, length=max(1, mistake.span.length))
+        correction = Correction((written,), mistake.correction.is_certain)
+        return replace(
+            diagnosis, message=mistake.message, place=place, advice=mistake.advice, correction=correction
+        )
+    return diagnosis
+
+
+def _key_before(edit: Edit, source: Source) -> str:
+    """Return the key whose value an edit replaces."""
+    return source.line(edit.line)[: edit.column - 1].strip().removeprefix("- ").removesuffix(":").strip()
+
+
+def _helps(edits: Sequence[Edit], document: Document) -> bool:
+    """Return whether a text is read better after edits: without mistakes, or with fewer, or up to a later line."""
+    after = read(document.source.edited(edits))
+    if after.root is not None and (document.root is None or len(after.diagnoses) < len(document.diagnoses)):
+        return True
+    if not after.diagnoses:
+        return True
+    last = max(edit.end_line for edit in edits)
+    return document.root is None and min(each.place.line for each in after.diagnoses) > last
+
+
+def _without_tabs(document: Document) -> Correction | None:
+    """Return the correction that indents with blanks, by the width of a tab with which the spec reads best."""
+    best: tuple[int, list[Edit]] | None = None
+    for edits in _expanded(document.source):
+        if edits and _helps(edits, document):
+            mistakes = len(validate(read(document.source.edited(edits)).data)[1])
+            if best is None or mistakes < best[0]:
+                best = mistakes, edits
+    return Correction(tuple(best[1])) if best else None
+
+
+def _expanded(source: Source) -> Iterator[list[Edit]]:
+    """Yield the edits that write blanks for tabs before the first word of each line, for each width."""
+    lines = source.text.splitlines()
+    starts = [(number, line[: len(line) - len(line.lstrip(" \t"))]) for number, line in enumerate(lines, 1)]
+    tabbed = [(number, start) for number, start in starts if "\t" in start]
+    for width in TAB_WIDTHS:
+        yield [
+            source.edit(
+                source.offset_of(number),
+                source.offset_of(number) + len(start),
+                " " * len(start.expandtabs(width)),
+            )
+            for number, start in tabbed
+        ]
