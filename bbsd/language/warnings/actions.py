@@ -89,9 +89,9 @@ def _overruled(meaning: Meaning) -> Iterator[LocatedMistake]:
         return
     sent = [episode.acted[slot] for slot in episode.sent]
     heeded = {node.number for node in needed([*episode.after.values(), *sent])}
+    used = {slot.name for slot, node in episode.acted.items() if node.number in heeded}
     for name in dynamics:
-        slots = [slot for slot in episode.acted if slot.name == name] if name in set_by_actions else []
-        if slots and not any(episode.acted[slot].number in heeded for slot in slots):
+        if name in set_by_actions - used:
             message = f"what actions set {name} to has no effect: its dynamics do not use {name}"
             advice = f"use {name} in its dynamics, which are computed from what actions set, or leave the dynamics out"
             yield ("environment", "dynamics", name), Mistake("BB203", message, WHOLE, advice)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.language.warnings.actions import useless_actions
 from bbsd.language.warnings.conditions import vain_conditions
 from bbsd.language.warnings.influence import uninfluenced_terms
-from bbsd.language.warnings.intervals import Bounds
+from bbsd.language.warnings.proving import Prover
 from bbsd.language.warnings.reach import unreached_cells
 from bbsd.language.warnings.robots import robots_alike
 from bbsd.language.warnings.rounding import rounded_equalities
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 
 def warnings_of(meaning: Meaning) -> Iterator[LocatedMistake]:
     """Yield the warnings about a spec that was understood, in no order, but for those of single expressions."""
-    uses, bounds = uses_of(meaning.spec), Bounds(meaning)
+    uses, prover = uses_of(meaning.spec), Prover(meaning)
     yield from unused_names(uses)
     yield from unset_values(meaning, uses)
     yield from useless_actions(meaning)
     yield from undecided_cells(meaning)
     yield from robots_alike(meaning)
     yield from uninfluenced_terms(meaning)
-    yield from vain_conditions(meaning, bounds)
-    yield from unreached_cells(meaning, bounds)
+    yield from vain_conditions(meaning, prover)
+    yield from unreached_cells(meaning, prover)
     yield from rounded_equalities(meaning)

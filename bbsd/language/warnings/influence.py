@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.episode import Episode
     from bbsd.language.validation import LocatedMistake
 
+MOST_LOOKS = 500_000
+"""Nodes that are looked at in all passes together."""
 MOST_PASSES = 50
 """Steps in which an influence spreads from one slot to the next; if it spreads on, everything counts as influenced."""
 
@@ -43,7 +45,7 @@ def _influenced(episode: Episode) -> set[Slot] | None:
     """Return the slots whose values depend on what behaviors choose, at once or later; None if that cannot be told."""
     order = needed(episode.after.values())
     slots: set[Slot] = set()
-    for _ in range(MOST_PASSES):
+    for _ in range(min(MOST_PASSES, MOST_LOOKS // max(1, len(order)))):
         touched: set[int] = set()
         for node in order:
             if _is_source(node, slots) or any(each.number in touched for each in node.operands):

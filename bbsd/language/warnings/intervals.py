@@ -52,12 +52,16 @@ class Bounds:
         later = {node.number for node in needed(episode.after.values())}
         self._at_start = {node.number for node in order} - later
         """What is computed at the start alone: there all state follows from constants, and is no switch."""
-        if len(order) <= MOST_NODES:
+        self._is_looked_for = len(order) <= MOST_NODES
+        if self._is_looked_for:
             self._slots = self._stable(episode.start, episode.after, order)
 
     def of(self, node: Node) -> Interval:
         """Return the bounds of a node."""
-        self._evaluate(needed([node]), self._slots, self._known)
+        if not self._is_looked_for:
+            return _of_kind(node.kind)
+        if node.number not in self._known:
+            self._evaluate(needed([node]), self._slots, self._known)
         return self._known[node.number]
 
     def _stable(
@@ -120,15 +124,16 @@ class Bounds:
 def _constants(meaning: Meaning) -> list[Interval]:
     """Return the bounds of each scalar of the constants: its value, unless it is drawn or depends on the generation."""
     spec, bounds = meaning.spec, [ALL] * len(meaning.constants.scalars)
-    uncertain = {GENERATION}
-    trees = {name: [each.tree for each in expressions_in(value)] for name, value in spec.constants.items()}
-    used = {
-        name: frozenset[str]().union(*map(names_used, own), *map(functions_called, own))
-        for name, own in trees.items()
-    }
-    uncertain |= {name for name, names in used.items() if names & DRAWS.keys()}
-    for _ in used:
-        uncertain |= {name for name, names in used.items() if names & uncertain}
+    users: dict[str, list[str]] = {}
+    for name, value in spec.constants.items():
+        trees = [each.tree for each in expressions_in(value)]
+        for used in frozenset[str]().union(*map(names_used, trees), *map(functions_called, trees)):
+            users.setdefault(used, []).append(name)
+    uncertain, waiting = set[str](), [GENERATION, *DRAWS]
+    while waiting:
+        name = waiting.pop()
+        waiting += [user for user in users.get(name, ()) if user not in uncertain]
+        uncertain.update(users.get(name, ()))
     for name, value in meaning.constants.leaves.items():
         for node in _scalars(value) if name not in uncertain else ():
             scalar = meaning.constants.scalars[node.index]

@@ -18,9 +18,10 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.language.validation import LocatedMistake
 
-MOST_NODES = 20_000
-"""Nodes of a step up to which rounding is looked for."""
+MOST_LOOKS = 200_000
+"""Nodes that are looked at in all passes together."""
 MOST_PASSES = 50
+"""Steps in which rounding spreads from one slot to the next; if it spreads on, nothing is told."""
 FINEST = 1024.0
 """Multiples of 1 / 1024 are added, subtracted and multiplied without rounding, as long as they are not huge."""
 
@@ -71,7 +72,7 @@ def _exactness(meaning: Meaning, nodes: Sequence[Node]) -> Mapping[int, Exactnes
     start, after = meaning.episode.start, meaning.episode.after
     order = needed([*nodes, *start.values(), *after.values()])
     slots: dict[Slot, Exactness] = dict.fromkeys(start, Exactness.EXACT)
-    for _ in range(MOST_PASSES if len(order) <= MOST_NODES else 0):
+    for _ in range(min(MOST_PASSES, MOST_LOOKS // len(order))):
         found: dict[int, Exactness] = {}
         for node in order:
             operands = [found[each.number] for each in node.operands if each.kind is Kind.NUMBER]

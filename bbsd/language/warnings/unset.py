@@ -10,9 +10,10 @@ from bbsd.expression.syntax.mistakes import KEY, Mistake
 from bbsd.language.warnings.unused import WORDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
     from bbsd.language.validation import LocatedMistake
     from bbsd.language.warnings.uses import Uses
@@ -29,12 +30,15 @@ def unset_values(meaning: Meaning, uses: Uses) -> Iterator[LocatedMistake]:
     environment = meaning.spec.environment
     modules = meaning.episode.modules
     targets = {name for module in modules for sets in module.actions.values() for name, _ in sets}
+    starts: dict[str, dict[Slot, Node]] = {}
+    for slot, node in meaning.episode.start.items():
+        starts.setdefault(slot.name, {})[slot] = node
     for block in ("world", "state"):
         for name in getattr(environment, block):
             if name in uses.live and name not in targets | environment.dynamics.keys():
-                starts = [node for slot, node in meaning.episode.start.items() if slot.name == name]
-                if _are_alike(meaning, name) and all(map(_is_fixed, starts)):
-                    yield ("environment", block, name), _mistake(WORDS[block], name, starts[0])
+                nodes = [*starts[name].values()]
+                if _are_alike(starts[name]) and all(map(_is_fixed, nodes)):
+                    yield ("environment", block, name), _mistake(WORDS[block], name, nodes[0])
 
 
 def _mistake(word: str, name: str, start: Node) -> Mistake:
@@ -43,13 +47,12 @@ def _mistake(word: str, name: str, start: Node) -> Mistake:
     return Mistake("BB202", message, KEY, advice)
 
 
-def _are_alike(meaning: Meaning, name: str) -> bool:
+def _are_alike(starts: Mapping[Slot, Node]) -> bool:
     """Return whether all robots have the same value at the start."""
-    starts: dict[tuple[int, ...], set[int]] = {}
-    for slot, node in meaning.episode.start.items():
-        if slot.name == name:
-            starts.setdefault(slot.place, set()).add(node.number)
-    return all(len(numbers) == 1 for numbers in starts.values())
+    rows: dict[tuple[int, ...], set[int]] = {}
+    for slot, node in starts.items():
+        rows.setdefault(slot.place, set()).add(node.number)
+    return all(len(numbers) == 1 for numbers in rows.values())
 
 
 def _is_fixed(node: Node) -> bool:

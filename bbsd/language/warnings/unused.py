@@ -25,7 +25,7 @@ def unused_names(uses: Uses) -> Iterator[LocatedMistake]:
     """Yield a warning for each name that does not come to matter."""
     for name, path in uses.made.items():
         if name not in uses.live:
-            word, users = WORDS[str(path[-2])], uses.users(name)
+            word, users = WORDS[str(path[-2])], uses.users.get(name, [])
             message = f"nothing uses the {word} {name}"
             if users:
                 shown = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bbsd.expression.syntax.tree import Expr, functions_called, names_used
@@ -21,7 +22,7 @@ OWNED_BLOCKS = ("world", "state", "definitions", "dynamics", "sensors")
 """The blocks of an environment whose expressions matter only where the name that they give a value matters."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Uses:
     """Names by where they are made, what each one's value uses, and the names that come to matter."""
 
@@ -29,9 +30,14 @@ class Uses:
     needs: Mapping[str, frozenset[str]]
     live: frozenset[str]
 
-    def users(self, name: str) -> list[str]:
-        """Return the other names whose values use a name, in the order of the spec."""
-        return [user for user in self.made if user != name and name in self.needs.get(user, ())]
+    @cached_property
+    def users(self) -> Mapping[str, list[str]]:
+        """For each name that is used, the other names whose values use it, in the order of the spec."""
+        users: dict[str, list[str]] = {}
+        for user in self.made:
+            for name in self.needs.get(user, frozenset()) - {user}:
+                users.setdefault(name, []).append(user)
+        return users
 
 
 def uses_of(spec: Spec) -> Uses:

@@ -16,13 +16,16 @@ if TYPE_CHECKING:
 MAX_CASES = 4096
 """Combinations of cases to go through."""
 MAX_EVALUATIONS = 1_000_000
-"""Cases times nodes of the condition."""
+"""Cases times nodes of the condition, by default."""
 MAX_ATOMS = 300
 """Comparisons of one value: each is computed at every bound and between them."""
 
 
 def covers_everything(
-    conditions: list[Node], graph: Graph, size: Callable[[Node], int | None] = lambda _: None
+    conditions: list[Node],
+    graph: Graph,
+    size: Callable[[Node], int | None] = lambda _: None,
+    most_evaluations: int = MAX_EVALUATIONS,
 ) -> bool:
     """Return whether at least one condition provably holds, whatever the values compared in them.
 
@@ -34,6 +37,7 @@ def covers_everything(
         conditions: truths.
         graph: the graph that they are from.
         size: gives how many values a node has that are the whole numbers from 0 on; None for all other nodes.
+        most_evaluations: cases times nodes of the condition.
     """
     any_holds = graph.fold("|", conditions)
     if any_holds.literal:
@@ -48,7 +52,7 @@ def covers_everything(
         cases *= len(choices[subject])
         if cases > MAX_CASES:
             return False
-    if cases * len(nodes) > MAX_EVALUATIONS:
+    if cases * len(nodes) > most_evaluations:
         return False
     return all(_holds(nodes, combination) for combination in product(*choices.values()))
 
