@@ -96,6 +96,8 @@ class AgentInput:
         label = str(plain).lower() if isinstance(plain, bool) else str(plain)
         if label in self.cells:
             return self.cells.index(label)
+        if isinstance(plain, float) and plain.is_integer() and self.kind == "name":
+            plain = int(plain)
         if isinstance(plain, int) and not isinstance(plain, bool) and self._has_named(plain):
             return plain
         few = ", ".join(self.cells[:FEW]) + (", ..." if len(self.cells) > FEW else "")

@@ -12,6 +12,7 @@ from bbsd.agent.program import Act, plain_functions
 from bbsd.api.given.arguments import MOST_SEED, Assignments, checked, instance, optional, whole
 from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.architecture import architecture_of
+from bbsd.architecture.needs import plain_name
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 
@@ -145,9 +146,15 @@ class Agent:
         return tuple((each.behavior, each.name) for each in self._program.controller.actions)
 
     @property
-    def memory(self) -> dict[str, float | bool]:
+    def memory(self) -> dict[str, float | bool | str]:
         """What the agent keeps at the moment: state by name, and what was before, as `before x`."""
-        return {slot.text(1): value for slot, value in zip(self._program.kept, self._kept, strict=True)}
+        named = self._program.named
+        return {
+            slot.text(1): named[plain_name(slot.name)][int(value)]
+            if plain_name(slot.name) in named
+            else value
+            for slot, value in zip(self._program.kept, self._kept, strict=True)
+        }
 
     @checked(key=optional(whole(0, MOST_SEED)))
     def reset(self, *, key: int | None = None) -> None:

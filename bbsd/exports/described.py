@@ -42,7 +42,9 @@ def cells_text(dimension: Dimension) -> str:
         return f"{number} of {dimension.text}; what is not in {first} to {last} counts as the nearest"
     if dimension.text.startswith("cut("):
         return f"the cell of {dimension.text}"
-    return f"the first that holds of {dimension.text}"
+    if ": " in dimension.text:
+        return f"the first that holds of {dimension.text}"
+    return f"the value of {dimension.text}"
 
 
 def has_named_cells(dimension: Dimension) -> bool:

@@ -6,7 +6,7 @@ from itertools import pairwise, product
 from math import inf
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.tree import Call
+from bbsd.expression.syntax.tree import Call, Conditional, Expr, Index, Name, OneOf
 from bbsd.kernel.functions import clamp_index
 from bbsd.language.field_types import Expression, expression
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, When
@@ -15,7 +15,7 @@ from tests.interpreter.expressions import Moment, Scope, Value, evaluate
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from bbsd.language.models import Behavior, Spec
+    from bbsd.language.models import Behavior, Environment, Spec
 
 OPEN_CELL = 255
 NUMBERS = {".": 0, "?": OPEN_CELL} | {str(number): number for number in range(10)}
@@ -52,12 +52,55 @@ def named_cell(cells: dict[str, Expression], place: str, scope_at: Callable[[str
 def partitions(behavior: Behavior, spec: Spec) -> dict[str, Partition]:
     """A behavior's own partitions, or the sensors, truths of the state and observations with a size that it lists."""
     if isinstance(behavior.inputs, dict):
-        return behavior.inputs
+        own = behavior.inputs.items()
+        return {name: by_names(partition, text_of(partition), spec) for name, partition in own}
     outside = spec.environment.outside
     sizes = {field.name: field.size for field in outside.fields if field.size} if outside else {}
     observed = {name: expression(f"values({name}, 0, {size - 1})") for name, size in sizes.items()}
     listed = {**observed, **spec.environment.state, **spec.environment.sensors}
-    return {name: listed[name] for name in behavior.inputs}
+    return {name: by_names(listed[name], name, spec) for name in behavior.inputs}
+
+
+def text_of(partition: Partition) -> str:
+    return "" if isinstance(partition, dict) else partition.text
+
+
+def by_names(partition: Partition, text: str, spec: Spec) -> Partition:
+    """A value that is one of several names as a cell for each of them; any other partition as it is."""
+    names = None if isinstance(partition, dict) else names_of(partition.tree, spec)
+    if names is None or isinstance(partition, dict):
+        return partition
+    return {name: expression(f"({text}) == {name}") for name in names}
+
+
+def names_of(tree: Expr, spec: Spec) -> tuple[str, ...] | None:
+    """The names that a value can be one of."""
+    environment = spec.environment
+    match tree:
+        case OneOf(names=names):
+            return names
+        case Name(name=name):
+            written = {
+                **environment.world,
+                **environment.state,
+                **environment.definitions,
+                **environment.sensors,
+            }
+            meant = written.get(name)
+            return names_of(meant.tree, spec) if isinstance(meant, Expression) else None
+        case Index(of=of):
+            return names_of(of, spec)
+        case Conditional(then=then, otherwise=otherwise):
+            return names_of(then, spec) or names_of(otherwise, spec)
+        case Call(function="before", arguments=(earlier,)):
+            return names_of(earlier, spec)
+    return None
+
+
+def choices(environment: Environment) -> frozenset[str]:
+    """All names that values of world and state can be."""
+    starts = (*environment.world.values(), *environment.state.values())
+    return frozenset(name for start in starts if isinstance(start.tree, OneOf) for name in start.tree.names)
 
 
 def labels(partition: Partition, constants: Mapping[str, Value]) -> list[str]:

@@ -11,7 +11,7 @@ from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.tree import Name
 from bbsd.kernel.functions import divide
 from bbsd.language.field_types import Expression
-from tests.interpreter.cells import labels, partitions, sensed
+from tests.interpreter.cells import choices, labels, partitions, sensed
 from tests.interpreter.draws import draws_of_episode
 from tests.interpreter.expressions import (
     Definition,
@@ -86,7 +86,9 @@ class Episode:
     def scope(self, place: str, expression: Expression, robot: int, moment: Moment) -> Scope:
         """What an expression at a place of the spec sees."""
         draw = draws_of_episode(place, expression.tree, robot, moment.step, self.key)
-        return Scope(moment, len(self.robots), robot, draw, self.definitions)
+        return Scope(
+            moment, len(self.robots), robot, draw, self.definitions, choices=choices(self.spec.environment)
+        )
 
     def evaluate(self, place: str, expression: Expression, robot: int, moment: Moment) -> Value:
         return evaluate(expression.tree, self.scope(place, expression, robot, moment))
@@ -197,7 +199,8 @@ def decision(episode: Episode, design: Design, snapshot: Moment, robot: int, ind
             cell = sensed(partition, place, partial(scope_of, episode, robot, snapshot))
         else:
             cell = snapshot.value(given, robot)
-        row = row * len(labels(partition, episode.constants)) + int(cell)
+        names = labels(partition, episode.constants)
+        row = row * len(names) + (names.index(cell) if isinstance(cell, str) else int(cell))
     return design.tables[index][row]
 
 

@@ -19,6 +19,7 @@ from bbsd.expression.syntax.tree import (
     Logical,
     Name,
     Number,
+    OneOf,
     Truth,
     Unary,
 )
@@ -26,8 +27,8 @@ from bbsd.expression.vocabulary import CONSTANTS, DRAWS, FUNCTIONS
 from bbsd.kernel import functions
 
 Value = Any
-"""A float, a bool, or a list of values."""
-Draw = Callable[[Call, tuple[int, ...], list[Value]], Value]
+"""A float, a bool, a name, or a list of values."""
+Draw = Callable[[Call | OneOf, tuple[int, ...], list[Value]], Value]
 """What a draw gives: its call in the tree, the positions in the generators around it, and its arguments."""
 
 ARITHMETIC = {
@@ -74,6 +75,8 @@ class Scope:
     definitions: Mapping[str, Definition] = field(default_factory=dict)
     local: Mapping[str, Value] = field(default_factory=dict)
     positions: tuple[int, ...] = ()
+    choices: frozenset[str] = frozenset()
+    """The names that values can be; such a name means itself."""
 
 
 def evaluate(expr: Expr, scope: Scope) -> Value:
@@ -98,6 +101,10 @@ def evaluate(expr: Expr, scope: Scope) -> Value:
             return indexed(expr, scope)
         case Call():
             return called(expr, scope)
+        case OneOf(names=names, start=None, at_random=True):
+            return names[int(scope.draw(expr, scope.positions, [0.0, len(names) - 1.0]))]
+        case OneOf(names=names, start=start):
+            return names[0] if start is None else evaluate(start, scope)
     raise AssertionError(expr)
 
 
@@ -122,6 +129,8 @@ def named(name: str, scope: Scope) -> Value:
         return float(scope.moment.step)
     if name in CONSTANTS:
         return CONSTANTS[name]
+    if name in scope.choices:
+        return name
     return scope.moment.value(name, scope.robot)
 
 

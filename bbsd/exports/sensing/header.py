@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bbsd.architecture.needs import needs_of
 from bbsd.exports import c
 from bbsd.exports.c import comment
+from bbsd.exports.names import Names
 from bbsd.exports.sensing.functions import functions_text
 from bbsd.exports.sensing.head import head_of
 from bbsd.exports.sensing.playing import Player
@@ -115,6 +116,7 @@ class Sensing:
     def _structs(self) -> Iterator[str]:
         """Yield the types of what is given, kept and set."""
         prefix = self.writing.prefix
+        yield from self._enums()
         said = {
             "inputs": "What the robot is given before each step.",
             "memory": f"What the robot keeps from step to step; {prefix}_start() writes it first.",
@@ -128,6 +130,22 @@ class Sensing:
                     yield from _declared(member)
                 yield "};"
                 yield ""
+
+    def _enums(self) -> Iterator[str]:
+        """Yield the names of values as constants, where the first part has none of them for an input's cells."""
+        taken = Names({*self.writing.actions, *(name for cells in self.writing.cells for name in cells)})
+        for name, values in self.program.named.items():
+            own = Names(())
+            wanted = [own.new(f"{self.writing.prefix} {name} {value}", upper=True) for value in values]
+            if wanted in [[*cells] for cells in self.writing.cells]:
+                continue
+            yield from comment(f"The values of {name}.")
+            yield f"enum {self.writing.prefix}_values_of_{name} {{"
+            for number, text in enumerate(wanted):
+                constant = taken.new(text)
+                yield f"{INDENT}{constant} = {number}{',' if number < len(values) - 1 else ''}"
+            yield "};"
+            yield ""
 
     def _start(self) -> Iterator[str]:
         """Yield the function that writes the memory before the first step."""

@@ -120,14 +120,28 @@ class Program:
             if each.block == "sensors":
                 sensor = environment.sensors[each.name]
                 written = one_line(sensor) if isinstance(sensor, Expression) else mapping_text(sensor)
-                comments[each.name] = f"sensor: {written}"
+                comments[each.name] = f"sensor{self._numbers_of(each.name)}: {written}"
                 if is_partition(sensor):
                     labels = ", ".join(f"{k}: {cell}" for k, cell in enumerate(self._cells(each.name)))
                     comments[each.name] = f"cell of the sensor, {labels}: {written}"
             else:
                 whose = "of each robot of the team" if each.of_team else "of the robot"
-                comments[each.name] = "of the world" if each.block == "world" else f"state {whose}"
+                what = "of the world" if each.block == "world" else f"state {whose}"
+                comments[each.name] = what + self._numbers_of(each.name)
         return comments
+
+    @property
+    def named(self) -> dict[str, tuple[str, ...]]:
+        """The names of the values that the robot is given, keeps or sets, by what has them."""
+        used = {each.name for each in self.needs.given}
+        used |= {plain_name(slot.name) for robot in self.needs.robots for slot in robot.next}
+        used |= {name for name, _ in self.needs.robots[0].held}
+        return {name: names for name, names in self.meaning.episode.named.items() if name in used}
+
+    def _numbers_of(self, name: str) -> str:
+        """Return what the numbers of a value with names mean; nothing for other values."""
+        names = self.meaning.episode.named.get(plain_name(name), ())
+        return "".join(f", {number}: {each}" for number, each in enumerate(names))
 
     def draws_itself(self, name: str) -> bool:
         """Return whether a value is given as it is a sensor that draws."""
@@ -148,7 +162,7 @@ class Program:
 
     def _memory_comment(self, name: str) -> str:
         if name.startswith(BEFORE):
-            return f"{plain_name(name)} at the step before"
+            return f"{plain_name(name)} at the step before{self._numbers_of(name)}"
         return f"starts as {one_line(self.meaning.spec.environment.state[name])}"
 
     # --- How leaves are read
