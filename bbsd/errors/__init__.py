@@ -6,7 +6,7 @@ from bbsd.errors.diagnosis import Diagnosis, Place, SpecError
 from bbsd.errors.inert import inert, inert_cell, inert_json
 from bbsd.errors.kind import DiagnosisKind, Severity
 from bbsd.errors.rendering import character_name, escape, render_json, render_text
-from bbsd.errors.suggestion import did_you_mean
+from bbsd.errors.suggestion import did_you_mean, nearest
 from bbsd.errors.usage import UsageError
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "inert",
     "inert_cell",
     "inert_json",
+    "nearest",
     "render_json",
     "render_text",
 ]

@@ -21,11 +21,17 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
     Where no spelling is near, a name is if it or the word abbreviates the other by its initials (dt and delta_t).
     """
+    near = nearest(word, known)
+    return f'; did you mean "{near}"?' if near else ""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return the known name nearest to the word, '' if none is near."""
     if len(word) > MAX_WORD:
         return ""
     names = _likely(word, list(islice(known, MAX_KNOWN)))
     near = get_close_matches(word, names, n=1) or [name for name in names if _is_short_for(name, word)]
-    return f'; did you mean "{near[0]}"?' if near else ""
+    return near[0] if near else ""
 
 
 def _likely(word: str, names: list[str]) -> list[str]:

@@ -9,13 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bbsd.errors import did_you_mean
+from bbsd.errors import nearest
 from bbsd.expression.aggregates import aggregate
 from bbsd.expression.checks import has_arguments, require_finite, require_kind, require_static_whole
-from bbsd.expression.drawing import impossible_draw
 from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
+from bbsd.expression.mistaken.cells import compared_with_cell
+from bbsd.expression.mistaken.draws import impossible_draw, missing_first
 from bbsd.expression.naming import (
     choose,
     compare,
@@ -214,6 +215,8 @@ def _logical(expr: Logical, scope: Scope) -> Node:
 
 def _comparison(expr: Comparison, scope: Scope) -> Node:
     scope.graph.spend(COMPARISON_WORK)
+    if (mistaken := compared_with_cell(expr, scope)) is not None:
+        return mistaken
     nodes: list[Node] = []
     values: list[Value] = []
     for operand in expr.operands:
@@ -309,8 +312,11 @@ def _uncallable(expr: Call, scope: Scope) -> Node:
         message, advice = f'unknown function "{name}"', f"write {new}"
         span = Span(expr.span.start, len(name))
         return scope.mistake("BB053", message, span, advice, Rewriting(new, expr.span, is_certain))
-    hint = did_you_mean(name, [*FUNCTIONS, *AGGREGATES, *DRAWS, "before", *definitions])
-    return scope.mistake("BB053", f'unknown function "{name}"{hint}', Span(expr.span.start, len(name)))
+    near = nearest(name, [*FUNCTIONS, *AGGREGATES, *DRAWS, "before", *definitions])
+    hint = f'; did you mean "{near}"?' if near else ""
+    span = Span(expr.span.start, len(name))
+    correction = Rewriting(near, span, is_certain=False) if near else None
+    return scope.mistake("BB053", f'unknown function "{name}"{hint}', span, correction=correction)
 
 
 def _numbers(expr: Call, wanted: int, scope: Scope) -> list[Node]:
@@ -353,6 +359,8 @@ def _draw(expr: Call, scope: Scope) -> Node:
     if scope.draws is None:
         advice = "draw it as a state variable and use that"
         return scope.mistake("BB058", f"{expr.function}(...) cannot be drawn here", expr.span, advice)
+    if len(expr.arguments) == 1 and (missing := missing_first(expr)) is not None:
+        return scope.mistake("BB054", missing.message, missing.span, missing.advice, missing.correction)
     operands = _numbers(expr, DRAWS[expr.function][0], scope)
     if any(node.kind is Kind.UNKNOWN for node in operands):
         return scope.graph.unknown

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeAlias
 
-from bbsd.errors import did_you_mean
+from bbsd.errors import did_you_mean, nearest
 from bbsd.expression.checks import has_arguments, require_kind
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
@@ -25,6 +25,7 @@ from bbsd.expression.scope import (
     Unusable,
     Value,
 )
+from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Call, Expr, Index, Name, Number, Span, Unary
 from bbsd.expression.vocabulary import AGGREGATES, CONSTANTS, DRAWS, FUNCTIONS
@@ -75,8 +76,15 @@ def _without_value(expr: Name, scope: Scope) -> Node:
         case Unusable(code=code, reason=reason, advice=advice):
             return scope.mistake(code, reason, span, advice) if reason else scope.graph.unknown
     if scope.findings.is_first((scope.path, span)):
-        return scope.mistake("BB052", _unknown(name, scope), span)
+        return _unknown_name(expr, scope)
     return scope.graph.unknown
+
+
+def _unknown_name(expr: Name, scope: Scope) -> Node:
+    message = _unknown(expr.name, scope)
+    near = nearest(expr.name, [*scope.local, *scope.names, *CONSTANTS]) if "did you mean" in message else ""
+    correction = Rewriting(near, expr.span, is_certain=False) if near else None
+    return scope.mistake("BB052", message, expr.span, correction=correction)
 
 
 def _unknown(name: str, scope: Scope) -> str:

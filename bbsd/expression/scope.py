@@ -106,6 +106,8 @@ class Unusable:
     code: str = ""
     reason: str = ""
     advice: str = ""
+    cells: Mapping[str, str] = field(default_factory=dict)
+    """Of a partition: what holds in each of its cells, as an expression."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -177,7 +177,8 @@ def _diagnoses(
         place = _place((path, mistake), files, data, overrides)
         starts = {_start(place), _start(files.place(existing(path, data)))}
         if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _lacks_a_part(files)):
-            correction = None if place.file == OVERRIDES else placed(mistake.correction, path, files)
+            nearest = existing(path, data)
+            correction = None if place.file == OVERRIDES else placed(mistake.correction, nearest, files)
             diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
 

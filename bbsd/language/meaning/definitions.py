@@ -13,7 +13,7 @@ from bbsd.language.models import OTHERWISE, Spec
 from bbsd.language.outside import EARNED, OUTSIDE_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
     from bbsd.expression.syntax.tree import Expr
     from bbsd.language.models import Environment
@@ -83,9 +83,15 @@ def _report_duplicate(name: str, path: Path, first: Path, findings: Findings) ->
 
 
 def report_unordered(
-    spec: Spec, definitions: Mapping[str, Definition], findings: Findings
+    spec: Spec,
+    definitions: Mapping[str, Definition],
+    findings: Findings,
+    unusable: Collection[str] = (),
 ) -> dict[str, Unusable]:
-    """Return and report the names whose values need themselves, or too long a chain of other values."""
+    """Return and report the names whose values need themselves, or too long a chain of other values.
+
+    Nothing is reported of `unusable` names, such as those of two things.
+    """
     environment = spec.environment
     functions = frozenset(name for name, definition in definitions.items() if definition.parameters)
     derived = {
@@ -103,7 +109,8 @@ def report_unordered(
     paths = dict(reversed(shared_namespace(spec, definitions)))
     unordered = _report_circles(constants, paths, findings)
     # At the start there are no sensors yet, and later world and state are stored.
-    for group in (starts | derived, derived | sensors):
+    for each in (starts | derived, derived | sensors):
+        group = {name: needs for name, needs in each.items() if name not in unusable}
         unordered |= _report_circles(group, paths, findings)
         ordered = {name: needs for name, needs in group.items() if name not in unordered}
         unordered |= _report_long_chains(ordered, paths, findings)

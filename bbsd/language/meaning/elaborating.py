@@ -59,7 +59,7 @@ def _elaborate(spec: Spec, seed: int, broken: frozenset[str], findings: Findings
     namespace = shared_namespace(spec, definitions)
     unusable |= report_duplicates(namespace, findings)
     report_names_of_values(spec.environment, namespace, findings)
-    unusable |= report_unordered(spec, definitions, findings)
+    unusable |= report_unordered(spec, definitions, findings, unusable)
     constants = read_constants(spec.constants, seed_key(seed), graph, findings, frozenset(unusable))
     episode = elaborate_episode(Names(spec, graph, findings, constants, definitions, unusable))
     structure = elaborate_structure(spec, findings, broken)

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, cast
 from bbsd.expression import elaboration
 from bbsd.expression.naming import one_reading
 from bbsd.expression.scope import Binding, Path, PerRobot, Scope, Shared, Unseen, Unusable, Value
-from bbsd.language.meaning.partitions import Partition, elaborate_partition, is_partition
+from bbsd.language.meaning.partitions import Partition, conditions_of_cells, elaborate_partition, is_partition
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.language.field_types import Expression
     from bbsd.language.meaning.names import Names, Stored
+    from bbsd.language.models import PartitionText
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,9 @@ class Moment:
 
     def _sensor_names(self) -> dict[str, Binding]:
         return {
-            name: _partition_name(name) if is_partition(sensor) else PerRobot(partial(self.value, name))
+            name: _partition_name(name, sensor)
+            if is_partition(sensor)
+            else PerRobot(partial(self.value, name))
             for name, sensor in self.names.spec.environment.sensors.items()
         }
 
@@ -83,6 +86,6 @@ def _stored_names(stored: Stored, names: Names) -> dict[str, Binding]:
     }
 
 
-def _partition_name(name: str) -> Unusable:
+def _partition_name(name: str, sensor: PartitionText) -> Unusable:
     advice = "only behaviors' inputs use partitions; use the value that it cuts"
-    return Unusable("BB067", f"{name} is a partition, not a value", advice)
+    return Unusable("BB067", f"{name} is a partition, not a value", advice, conditions_of_cells(sensor))

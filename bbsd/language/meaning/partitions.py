@@ -11,7 +11,7 @@ from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.naming import one_reading
 from bbsd.expression.scope import Named
-from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.syntax.mistakes import KEY, Rewriting
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Call, Expr, Name, Span
 from bbsd.language.meaning.proofs.coverage import covers_everything
@@ -19,6 +19,8 @@ from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from bbsd.expression.graph import Graph
     from bbsd.expression.scope import Path, Scope
     from bbsd.language.field_types import Expression
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 TRUTH_CELLS = ("false", "true")
 MAX_CELLS = 1_000_000
 """Cells of one table: a byte each in the table of every individual of a pool."""
+MAX_EXPLAINED = 12
+"""Cells of a partition of which messages say what holds in them."""
 MAX_CELLS_IN_ALL = 10_000_000
 """Cells of the tables of all behaviors together."""
 
@@ -43,6 +47,36 @@ def is_partition(sensor: PartitionText) -> bool:
     return isinstance(sensor, dict) or (
         isinstance(sensor.tree, Call) and sensor.tree.function in ("cut", "values")
     )
+
+
+def conditions_of_cells(sensor: PartitionText) -> dict[str, str]:
+    """Return what holds in each cell of a sensor that is cut or has named cells, as an expression; few cells only."""
+    if isinstance(sensor, dict):
+        return _conditions_of_names(sensor) if len(sensor) <= MAX_EXPLAINED else {}
+    tree = sensor.tree
+    if not (isinstance(tree, Call) and tree.function == "cut" and 2 <= len(tree.arguments) <= MAX_EXPLAINED):
+        return {}
+    number, *bounds = (render(part) for part in tree.arguments)
+    inner = {f"{low} to {high}": f"{low} <= {number} < {high}" for low, high in pairwise(bounds)}
+    return {
+        f"below {bounds[0]}": f"{number} < {bounds[0]}",
+        **inner,
+        f"from {bounds[-1]}": f"{number} >= {bounds[-1]}",
+    }
+
+
+def _conditions_of_names(cells: Mapping[str, Expression]) -> dict[str, str]:
+    """Return what holds in each named cell: its own condition, and none of those before."""
+    conditions: dict[str, str] = {}
+    before: list[str] = []
+    for label, condition in cells.items():
+        own = "" if condition.text == OTHERWISE else condition.text
+        others = f"not ({' or '.join(before)})" if before else ""
+        conditions[label] = " and ".join(
+            part for part in (f"({own})" if own and others else own, others) if part
+        )
+        before.append(f"({own})" if len(cells) > 2 and own else own)
+    return conditions
 
 
 def elaborate_partition(
@@ -93,7 +127,8 @@ def _cut(tree: Call, scope: Scope) -> Partition | None:
     values = [value_of(node) if node.literal else scope.static(node) for node in nodes]
     for (low, high), bound in zip(pairwise(values), bounds[1:], strict=True):
         if low is not None and high is not None and not low < high:
-            scope.mistake("BB031", f"bounds must grow, and {high:g} does not exceed {low:g}", bound.span)
+            message = f"bounds must grow, and {high:g} does not exceed {low:g}"
+            scope.mistake("BB031", message, bound.span, *_in_order(tree, bounds, values))
             return None
     texts = [render(bound) for bound in bounds]
     labels = (
@@ -104,6 +139,16 @@ def _cut(tree: Call, scope: Scope) -> Partition | None:
     graph = scope.graph
     passed = [graph.apply("cell_of", graph.apply(">=", number, node)) for node in nodes]
     return Partition(labels, graph.fold("+", passed))
+
+
+def _in_order(cut: Call, bounds: list[Expr], values: list[float | None]) -> tuple[str, Rewriting | None]:
+    """Return the advice and the correction that sort the bounds of a cut; none where two are the same."""
+    known = [value for value in values if value is not None]
+    if len({*known}) < len(values):
+        return "", None
+    ordered = sorted(zip(known, map(render, bounds), strict=True))
+    new = f"cut({', '.join([render(cut.arguments[0]), *(text for _, text in ordered)])})"
+    return f"write {new}", Rewriting(new, cut.span)
 
 
 def _values(tree: Call, scope: Scope) -> Partition | None:

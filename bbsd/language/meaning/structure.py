@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.errors import did_you_mean
+from bbsd.errors import nearest
+from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.language.models import OPEN, Spec
 
 if TYPE_CHECKING:
-    from bbsd.expression.scope import Findings
+    from bbsd.expression.scope import Findings, Path
 
 OPEN_LAYER = -1
 
@@ -60,6 +61,18 @@ def _without_forced_layer(layers: tuple[int, ...], candidates: tuple[int, ...]) 
     return Structure(layers, candidates)
 
 
+def _report_unknown(word: str, path: Path, known: list[str], findings: Findings) -> None:
+    parts = word.split()
+    if len(parts) > 1 and set(parts) <= set(known):
+        message = f'"{word}" is not a behavior: between {parts[0]} and {parts[1]} a comma is missing'
+        findings.report(path, "BB042", message, correction=Rewriting(", ".join(parts)))
+        return
+    near = nearest(word, known)
+    hint = f'; did you mean "{near}"?' if near else ""
+    correction = Rewriting(near, is_certain=False) if near else None
+    findings.report(path, "BB042", f'"{word}" is not a behavior{hint}', correction=correction)
+
+
 def _layer(word: str, index: int, spec: Spec, findings: Findings, broken: frozenset[str]) -> int | None:
     """Return the behavior of a layer; None after a mistake."""
     behaviors, path = list(spec.behaviors), ("structure", index)
@@ -67,8 +80,7 @@ def _layer(word: str, index: int, spec: Spec, findings: Findings, broken: frozen
         return OPEN_LAYER
     if word not in behaviors:
         if word not in broken:
-            message = f'"{word}" is not a behavior{did_you_mean(word, [*behaviors, OPEN])}'
-            findings.report(path, "BB042", message)
+            _report_unknown(word, path, [*behaviors, OPEN], findings)
         return None
     if word in (spec.structure or ())[:index]:
         findings.report(path, "BB042", f"{word} stands in the structure twice")

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
-from bbsd.language.keys import fields_at
 from bbsd.language.meant.layout import begins_line, correction, lines, stretch
 from bbsd.language.validation import named
 from bbsd.text.nodes import Mapping, Scalar, Sequence
@@ -276,25 +275,3 @@ def nameless_actions(reading: Reading) -> None:
             correction(document, edits, is_certain=False),
         )
         reading.replace(path, {new: {**effects}}, [((new,), ())])
-
-
-def numbers_of_robots(reading: Reading) -> None:
-    """Read a list of robots as how many they are."""
-    path: Path = ("environment", "robots")
-    value = reading.at(path)
-    if isinstance(value, list | dict) and value:
-        message = "robots must be a whole number from 1 to 64: how many there are"
-        reading.tell(
-            path,
-            "BB022",
-            message,
-            f"write robots: {len(value)}; a robot's number is robot, from 0 on",
-            Rewriting(str(len(value)), WHOLE, is_certain=False),
-            WHOLE,
-        )
-        reading.replace(path, len(value))
-
-
-def keys_of(path: Path) -> list[str]:
-    """Return the keys that the language has at a path."""
-    return [*(fields_at(path) or ())]

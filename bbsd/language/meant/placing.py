@@ -8,7 +8,7 @@ from bbsd.errors import Correction
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting, characters_of_key
 from bbsd.language.validation import child
 from bbsd.text import read
-from bbsd.text.nodes import Scalar
+from bbsd.text.nodes import Scalar, Sequence
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -40,10 +40,16 @@ def _edits(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:
         stretch = document.stretch(path, span.start, span.length, on_key=True)
     else:
         return _within(rewriting, path, document)
-    if stretch is None:
+    if stretch is None or not _fits_list(rewriting.text, path, document):
         return None
     edit = document.source.edit(*stretch, rewriting.text)
     return edit if _is_readable(document, [edit]) else None
+
+
+def _fits_list(text: str, path: Path, document: Document) -> bool:
+    """Return whether a text can stand for an item: one with commas is several items only in brackets."""
+    parent = document.node(path[:-1])
+    return ", " not in text or text.startswith("{") or not isinstance(parent, Sequence) or parent.flow
 
 
 def _within(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:

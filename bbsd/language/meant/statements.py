@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from pydantic_core import PydanticCustomError
+
 from bbsd.expression.foreign.tokens import reads
 from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.text import number_text, render
-from bbsd.expression.syntax.tree import Call, Comparison, Expr, Logical, Name, Number, Truth, Unary
-from bbsd.language.field_types import scalar_text
+from bbsd.expression.syntax.tree import Call, Comparison, Expr, Logical, Name, Number, Span, Truth, Unary
+from bbsd.language.field_types import expression, scalar_text
+from bbsd.language.meaning.partitions import conditions_of_cells
 from bbsd.language.meant.forms import named_blocks
 from bbsd.language.meant.layout import correction
 from bbsd.text.nodes import Mapping
@@ -32,7 +35,6 @@ def if_statements(reading: Reading) -> None:
             text = _conditional(value)
             if text is not None:
                 _tell_statement(reading, path, value, text)
-    _bare_statements(reading)
 
 
 def _places_of_expressions(reading: Reading) -> list[Path]:
@@ -44,6 +46,7 @@ def _places_of_expressions(reading: Reading) -> list[Path]:
             for action in reading.mapping(actions)
             for effect in reading.mapping((*actions, action))
         ]
+        places += [("behaviors", name, key) for key in ("excited", "expects")]
     return [*places, ("environment", "ends")]
 
 
@@ -78,10 +81,6 @@ def _tell_statement(reading: Reading, path: Path, statement: dict[str, Data], te
     written = correction(document, edits, is_certain=is_certain)
     reading.tell((*path, first), "BB022", message, f"write {path[-1]}: {text}", written)
     reading.replace(path, text)
-
-
-def _bare_statements(reading: Reading) -> None:
-    """Read `if c` and `else` that stand among the keys of a block as what the key above them is."""
 
 
 def conditions_as_expressions(reading: Reading) -> None:
@@ -167,3 +166,49 @@ def _side(name: str, operator: str, bound: str) -> tuple[str, str] | None:
     if operator == "<":
         return name, f"below {bound}"
     return (name, f"from {bound}") if operator == ">=" else None
+
+
+COMPARED = re.compile(
+    r"""(?P<name>[a-z]\w*)\s*(?P<operator>==|!=)\s*(?P<quote>['"])(?P<text>[^'"]*)(?P=quote)"""
+)
+
+
+def cells_as_texts(reading: Reading) -> None:
+    """Read `zone == 'below 0.2'` as the condition that makes that cell."""
+    for path in _places_of_expressions(reading):
+        text = reading.at(path)
+        match = COMPARED.search(text) if isinstance(text, str) else None
+        if not isinstance(text, str) or match is None:
+            continue
+        condition = _condition(reading, path, match["name"], match["text"])
+        if condition is None:
+            continue
+        new = condition if match["operator"] == "==" else f"not ({condition})"
+        if " and " in new or new.startswith("not "):
+            new = f"({new})"
+        span = Span(match.start(), match.end() - match.start())
+        message = f'there is no text in expressions, and "{match["text"]}" is a cell of {match["name"]}'
+        reading.tell(
+            path,
+            "BB051",
+            message,
+            f"write the condition that makes the cell: {new}",
+            Rewriting(new, span),
+            span,
+        )
+        reading.replace(path, text[: match.start()] + new + text[match.end() :])
+
+
+def _condition(reading: Reading, path: Path, name: str, label: str) -> str | None:
+    """Return what holds in a cell of an input or a sensor."""
+    partition = reading.mapping(("environment", "sensors")).get(name)
+    if partition is None and path[0] == "behaviors":
+        partition = reading.mapping((*path[:2], "inputs")).get(name)
+    try:
+        if isinstance(partition, dict):
+            cells = conditions_of_cells({str(key): expression(value) for key, value in partition.items()})
+        else:
+            cells = conditions_of_cells(expression(partition))
+    except PydanticCustomError:
+        return None
+    return cells.get(label)

@@ -9,14 +9,19 @@ from bbsd.language.meant.forms import (
     lists_of_named,
     mapping_of_rules,
     nameless_actions,
-    numbers_of_robots,
     single_reward,
     unordered_structure,
 )
 from bbsd.language.meant.keys import other_names, without_place, wrong_block
 from bbsd.language.meant.names import keys_of_dynamics, names
 from bbsd.language.meant.reading import Reading
-from bbsd.language.meant.statements import conditions_as_expressions, if_statements
+from bbsd.language.meant.statements import cells_as_texts, conditions_as_expressions, if_statements
+from bbsd.language.meant.values import (
+    blocks_of_costs,
+    numbers_of_robots,
+    steps_in_time,
+    values_at_the_start,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,8 +41,12 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     unordered_structure,
     nameless_actions,
     numbers_of_robots,
+    blocks_of_costs,
+    values_at_the_start,
+    steps_in_time,
     if_statements,
     conditions_as_expressions,
+    cells_as_texts,
     keys_of_dynamics,
     names,
 )

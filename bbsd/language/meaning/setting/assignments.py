@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bbsd.errors import did_you_mean
+from bbsd.errors import nearest
 from bbsd.expression import elaboration
 from bbsd.expression.graph import Node
 from bbsd.expression.naming import report_unknown_values
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake, Rewriting
 from bbsd.expression.syntax.tree import Name
 from bbsd.language.meaning.forms import fitted, scalars_of
 from bbsd.language.meaning.outside.exchange import ONLY_OUTSIDE, names_outside, what_sets
@@ -120,10 +120,13 @@ def _report_no_state(name: str, path: Path, names: Names) -> None:
         message = f"{what_sets(name)}, and an action cannot set it"
         names.findings.report(path, "BB107", message, KEY, ONLY_OUTSIDE)
     elif name not in names.unusable:
-        names.findings.report(path, "BB033", _not_state(name, names), KEY, "actions set a robot's own state")
+        message, near = _not_state(name, path, names)
+        correction = Rewriting(near, KEY, is_certain=False) if near else None
+        names.findings.report(path, "BB033", message, KEY, "actions set a robot's own state", correction)
 
 
-def _not_state(target: str, names: Names) -> str:
+def _not_state(target: str, path: Path, names: Names) -> tuple[str, str]:
+    """Return what is wrong with what an action sets, and the state that is probably meant, or ''."""
     environment = names.spec.environment
     others: dict[str, Collection[str]] = {
         "a value of the world": environment.world,
@@ -133,5 +136,18 @@ def _not_state(target: str, names: Names) -> str:
     }
     for kind, its_names in others.items():
         if target in its_names:
-            return f"{target} is {kind}, and an action cannot set it"
-    return f'"{target}" is not state{did_you_mean(target, environment.state)}'
+            return f"{target} is {kind}, and an action cannot set it", ""
+    near = nearest(target, environment.state) or _set_by_all_others(path, names)
+    hint = f'; did you mean "{near}"?' if near else ""
+    return f'"{target}" is not state{hint}', near
+
+
+def _set_by_all_others(path: Path, names: Names) -> str:
+    """Return the only state that the other actions of a behavior set, '' if there is none or more."""
+    match path:
+        case ("behaviors", str(behavior), "actions", str(own), *_):
+            actions = names.spec.behaviors[behavior].actions
+            effects = {key for action, sets in actions.items() if action != own for key in sets}
+            state = effects & names.spec.environment.state.keys()
+            return next(iter(state)) if len(state) == 1 else ""
+    return ""

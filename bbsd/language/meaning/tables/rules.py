@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from math import prod
 from typing import TYPE_CHECKING
 
-from bbsd.errors import did_you_mean
+from bbsd.errors import did_you_mean, nearest
 from bbsd.expression.scope import Findings
-from bbsd.expression.syntax.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
+from bbsd.language.meaning.tables.naming import bounds_of, cells_named, meant_cell
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Inputs, Table
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
 
@@ -20,7 +20,13 @@ if TYPE_CHECKING:
 
 MAX_MATCHED = 30_000_000
 """Cells that all rules of a behavior match, each counted once a rule that matches it."""
-OTHER_TRUTHS = {"yes": "true", "on": "true", "1": "true", "no": "false", "off": "false", "0": "false"}
+NOTHING = frozenset(
+    (
+        *("nothing", "none", "null", "noop", "no-op", "no_op", "no_action", "no-action"),
+        *("do nothing", "do_nothing", "pass", "idle", "wait", "skip", "-"),
+    )
+)
+"""What other tools call no action."""
 
 
 def table_of_rules(
@@ -83,12 +89,13 @@ def _decision(
     if word in actions:
         return actions.index(word) + 1
     if word not in unusable and not any(action in unusable for action in actions):
-        hint = did_you_mean(word, [*actions, NO_ACTION_TEXT, OPEN])
-        message, advice = (
-            f'"{word}" is not an action of this behavior{hint}',
-            f"its actions: {', '.join(actions)}" if actions else "",
-        )
-        findings.report((*path, key), "BB036", message, WHOLE, advice)
+        is_nothing = word.lower() in NOTHING
+        near = NO_ACTION_TEXT if is_nothing else nearest(word, [*actions, NO_ACTION_TEXT, OPEN])
+        hint = f'; did you mean "{near}"?' if near else ""
+        message = f'"{word}" is not an action of this behavior{hint}'
+        advice = f"its actions: {', '.join(actions)}" if actions else ""
+        correction = Rewriting(near, is_certain=is_nothing) if near else None
+        findings.report((*path, key), "BB036", message, WHOLE, advice, correction)
     return None
 
 
@@ -99,9 +106,11 @@ def _matched(
     when = {} if isinstance(rule, Otherwise) else rule.when
     for name in when:
         if name not in inputs and name not in unusable:
+            near = nearest(name, inputs)
             hint = did_you_mean(name, inputs) or f"; {_inputs_advice(inputs)}"
             message = f'"{name}" is not an input of this behavior{hint}'
-            findings.report((*path, "when", name), "BB034", message, KEY)
+            correction = Rewriting(near, KEY, is_certain=False) if near else None
+            findings.report((*path, "when", name), "BB034", message, KEY, "", correction)
     matched = [_cells_matched(name, cells, when, path, findings) for name, cells in inputs.items()]
     understood = [cells for cells in matched if cells is not None]
     return understood if when.keys() <= inputs.keys() and len(understood) == len(matched) else None
@@ -116,48 +125,21 @@ def _cells_matched(
 ) -> Sequence[int] | None:
     if name not in when:
         return range(len(cells))
-    named = [_cells_named(word, cells) for word in when[name]]
+    named = [cells_named(word, cells) for word in when[name]]
     for index, (word, matched) in enumerate(zip(when[name], named, strict=True)):
         if matched is None:
-            message = f'"{word}" is not a cell of {name}{_did_you_mean(word, cells)}'
-            findings.report((*path, "when", name, index), "BB035", message, WHOLE, _cells_advice(cells))
+            near, is_certain = meant_cell(word, cells)
+            hint = f'; did you mean "{near}"?' if near else ""
+            message = f'"{word}" is not a cell of {name}{hint}'
+            correction = Rewriting(near, is_certain=is_certain) if near else None
+            where = (*path, "when", name, index)
+            findings.report(where, "BB035", message, WHOLE, _cells_advice(cells), correction)
     if None in named:
         return None
     return sorted({cell for matched in named for cell in matched or ()})
 
 
-def _did_you_mean(word: str, cells: Labels) -> str:
-    truth = OTHER_TRUTHS.get(word.lower(), "")
-    return f'; did you mean "{truth}"?' if truth in cells else did_you_mean(word, cells)
-
-
 def _cells_advice(cells: Labels) -> str:
     shown = ", ".join(cells[:12])
-    return f"its cells: {shown}{', ...' if len(cells) > 12 else ''}"
-
-
-RANGE = re.compile(r"below (?P<below>.+)|from (?P<from>.+)|(?P<low>.+?) to (?P<high>.+)")
-
-
-def _cells_named(word: str, cells: Labels) -> range | None:
-    """Return the cells that a word names: one, or a range of the cells of a cut."""
-    if word in cells:
-        return range(cells.index(word), cells.index(word) + 1)
-    bounds = _bounds(cells)
-    match = RANGE.fullmatch(word)
-    if bounds is None or match is None:
-        return None
-    low = match["from"] or match["low"]
-    high = match["below"] or match["high"]
-    if not {low, high} <= {None, *bounds}:
-        return None
-    first = bounds.index(low) + 1 if low else 0
-    last = bounds.index(high) + 1 if high else len(cells)
-    return range(first, last) if first < last else None
-
-
-def _bounds(cells: Labels) -> list[str] | None:
-    """Return the bounds of a cut, read off its cells; None for cells of another partition."""
-    if not (len(cells) >= 2 and cells[0].startswith("below ") and cells[-1].startswith("from ")):
-        return None
-    return [cells[0].removeprefix("below "), *(cell.split(" to ", 1)[1] for cell in cells[1:-1])]
+    ranges = "; a range begins and ends at any bound" if bounds_of(cells) and len(cells) > 2 else ""
+    return f"its cells: {shown}{', ...' if len(cells) > 12 else ''}{ranges}"

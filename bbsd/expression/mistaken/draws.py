@@ -6,12 +6,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import number_text, render
-from bbsd.expression.syntax.tree import Call, Number, Span
+from bbsd.expression.syntax.tree import Call, Generator, Number, Span
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 WHOLE_PERCENT = 100
+TAKES = {
+    "normal": "mean and deviation",
+    "uniform": "the smallest and the largest value",
+    "integers": "the smallest and the largest value",
+}
+"""What draws of two numbers take."""
 
 
 class ImpossibleDraw(NamedTuple):
@@ -37,6 +43,21 @@ def impossible_draw(draw: Call, values: Sequence[float | None]) -> ImpossibleDra
             what = f"{draw.function} draws from the smaller number up to the larger one, and {high:g} is below {low:g}"
             return ImpossibleDraw(what, draw.span, f"write {new}", Rewriting(new, draw.span))
     return None
+
+
+def missing_first(draw: Call) -> ImpossibleDraw | None:
+    """Return what is wrong with the one argument of a draw that takes two; None for other draws and a generator."""
+    (argument,) = draw.arguments
+    if draw.function not in TAKES or isinstance(argument, Generator):
+        return None
+    new = f"{draw.function}(0, {render(argument)})"
+    what = f"{draw.function} takes 2 arguments, {TAKES[draw.function]}, not 1"
+    return ImpossibleDraw(
+        what,
+        draw.span,
+        f"write {new}, if 0 is meant as the first",
+        Rewriting(new, draw.span, is_certain=False),
+    )
 
 
 def _chance(draw: Call, probability: float) -> ImpossibleDraw:
