@@ -43,9 +43,9 @@ class DetailedOutcome:
     """An episode of every agent in detail.
 
     returns (n,), credit (n, n_behaviors + 1), terms (n, n_terms) in the spec's order, control (n, n_behaviors + 1)
-    robot-steps by behavior and nobody, steps_taken (n,), not_finite (n, n_places) steps in which a value was not
-    finite, expectations_met (n, n_expectations) robot-steps in which a behavior with an expectation controlled and it
-    held after them.
+    robot-steps by behavior and nobody, steps_taken (n,), not_finite (n, n_places + 1) steps in which a value was
+    not finite, in the last column what decides a cell or an index, expectations_met (n, n_expectations) robot-steps
+    in which a behavior with an expectation controlled and it held after them.
     """
 
     returns: Floats
@@ -142,7 +142,7 @@ class Team:
         episode, who = self.kernels.meaning.episode, self._n_behaviors + 1
         lanes, rows = (self._keys.size,), (who, len(episode.reward), who)
         shapes = [lanes, *((n, *lanes) for n in rows), lanes]
-        shapes += [(len(checked_slots(episode)), *lanes), (len(episode.expects), *lanes)]
+        shapes += [(1 + len(checked_slots(episode)), *lanes), (len(episode.expects), *lanes)]
         return [np.zeros(shape) for shape in shapes]
 
     def _run(self, rollout: Rollout, *arrays: object) -> bool:

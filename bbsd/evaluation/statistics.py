@@ -24,6 +24,10 @@ Floats = npt.NDArray[np.float64]
 QUANTILE_95 = NormalDist().inv_cdf(0.975)
 
 
+DECIDING = "what decides a cell or an index"
+"""What is counted as not finite besides state, sensors and the world: what expressions compute between them."""
+
+
 @dataclass(frozen=True, slots=True)
 class Interval:
     """The mean and standard deviation of a sample, and the normal 95 % interval of the mean."""
@@ -245,11 +249,8 @@ def _means_by_name(
         for name, value in zip(problem.meaning.episode.reward, terms, strict=True)
     }
     share = {name: float(value) / (steps_taken * robots) for name, value in zip(who, control, strict=True)}
-    counts = {
-        slot.text(robots): int(value)
-        for slot, value in zip(problem.checked_slots, not_finite, strict=True)
-        if value
-    }
+    places = [*(slot.text(robots) for slot in problem.checked_slots), DECIDING]
+    counts = {name: int(value) for name, value in zip(places, not_finite, strict=True) if value}
     in_control = dict(zip(who, control, strict=True))
     expected = {
         name: float(value) / float(in_control[name]) if in_control[name] else float("nan")

@@ -8,10 +8,12 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import IN_DETAIL, Detail, checked_slots, traced_definitions, traced_slots
+from bbsd.compiler.writing.deciding import deciding_numbers
 from bbsd.compiler.writing.looping import FIRST_ROBOT
 from bbsd.compiler.writing.precedence import Text, infix, join, name_text, sum_of, times
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
 from bbsd.expression.graph import value_of
+from bbsd.expression.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -80,6 +82,19 @@ class Totals:
             return {}
         return {slot: self._count_of(slot) for slot in checked_slots(function.episode)}
 
+    @cached_property
+    def deciding(self) -> list[Node]:
+        """The numbers besides slots that decide a cell or an index, where it is counted whether they are finite."""
+        function = self.function
+        if function.detail not in IN_DETAIL:
+            return []
+        return deciding_numbers(function.episode, function.outputs)
+
+    @cached_property
+    def undecided(self) -> list[str]:
+        """The array that counts the steps in which one of those was not finite, if there are any."""
+        return [self.function.keep("undecided")] if self.deciding else []
+
     def _count_of(self, slot: Slot) -> str:
         name = f"not_finite_{slot.text(self.function.robots)}"
         return self.function.keep(name, level=self.function.episode.after[slot].level)
@@ -87,7 +102,7 @@ class Totals:
     def start(self, team: Block, robot: Block) -> None:
         """Store 0 in all sums: the team's, and each robot's in another block."""
         details = [array for arrays in self.details.values() for array in arrays]
-        for array in [self.total, *self.credit, *details, *self.not_finite.values()]:
+        for array in [self.total, *self.credit, *details, *self.not_finite.values(), *self.undecided]:
             block = robot if self.function.is_own(array) else team
             block.store(self.function.at(array), ZERO)
 
@@ -187,11 +202,26 @@ class Totals:
             block = end.knowing(own=function.is_own(array))
             finite = function.call_of("is_finite", emitter.text(function.episode.after[slot], block))
             self._add(block, array, [function.call_of("select", finite, ZERO, step)])
+        for array in self.undecided:
+            self._add_undecided(array, emitter, end)
         self.add_step(end)
         for array, (index, nodes) in zip(self.details["expectations_met"], self._expected, strict=True):
             met = [self._if(emitter.text(node, end.each), step) for node in nodes]
             controls = [self._controls(index, robot, emitter, end) for robot in robots]
             self._add(end.each, array, map(self._if, controls, met))
+
+    def _add_undecided(self, array: str, emitter: Emitter, end: Closing) -> None:
+        """Count a step in which a number that decides something is not finite, of a robot or of the team."""
+        function = self.function
+        for own in (False, True):
+            block, known = end.knowing(own=own), list[Text]()
+            nodes = [node for node in self.deciding if (node.level in OWN) is own]
+            for first in range(0, len(nodes), MOST_ADDED):
+                texts = [emitter.text(node, block) for node in nodes[first : first + MOST_ADDED]]
+                joined = join("&", [*known, *(function.call_of("is_finite", text) for text in texts)])
+                known = [block.define(function.namer.numbered("decided"), joined, Kind.TRUTH)]
+            for decided in known:
+                self._add(block, array, [function.call_of("select", decided, ZERO, self._step)])
 
     @property
     def _step(self) -> Text:
@@ -276,7 +306,7 @@ class Totals:
                 else:
                     rows += [(array, str(first + element + k * len(arrays))) for k in range(robots)]
             first += robots * len(arrays)
-        return rows
+        return [*rows, *((array, str(first)) for array in self.undecided)]
 
 
 def _is_conditional(node: Node) -> bool:

@@ -2,7 +2,7 @@ from bbsd.kernel.functions import add_where, cell_of, clamp_index, divide, floor
 from bbsd.kernel.memory import as_integers, as_words, part
 from bbsd.kernel.streams import fold, uniform, word_of
 
-MEMORY = 224
+MEMORY = 232
 
 
 def rollout_detailed(first, last, numbers, keys, individuals, packed_tables, tables, table_offsets, priorities, constants, returns, credit, terms, control, steps_taken, not_finite, expectations_met):
@@ -27,15 +27,16 @@ def rollout_detailed(first, last, numbers, keys, individuals, packed_tables, tab
     not_finite_x_1 = part(numbers, 128, 8)
     not_finite_middle_0 = part(numbers, 136, 8)
     not_finite_middle_1 = part(numbers, 144, 8)
-    running_ = part(numbers, 152, 8)
-    priority_wait = part(cells, 160, 8)
-    table_wait = part(cells, 168, 8)
-    priority_come = part(cells, 176, 8)
-    row_come = part(cells, 184, 8)
-    cell_come_0 = part(cells, 192, 8)
-    choice_come_0 = part(cells, 200, 8)
-    cell_come_1 = part(cells, 208, 8)
-    choice_come_1 = part(cells, 216, 8)
+    undecided = part(numbers, 152, 8)
+    running_ = part(numbers, 160, 8)
+    priority_wait = part(cells, 168, 8)
+    table_wait = part(cells, 176, 8)
+    priority_come = part(cells, 184, 8)
+    row_come = part(cells, 192, 8)
+    cell_come_0 = part(cells, 200, 8)
+    choice_come_0 = part(cells, 208, 8)
+    cell_come_1 = part(cells, 216, 8)
+    choice_come_1 = part(cells, 224, 8)
     reach = constants[0]
     for base in range(first, last, 8):
         draw_1 = fold(0xac39aeacbaa9b617, word_of(0))
@@ -66,6 +67,7 @@ def rollout_detailed(first, last, numbers, keys, individuals, packed_tables, tab
             not_finite_x_1[lane] = 0.0
             not_finite_middle_0[lane] = 0.0
             not_finite_middle_1[lane] = 0.0
+            undecided[lane] = 0.0
             running_[lane] = 1.0
         for step in range(1, 11):
             for lane in range(8):
@@ -109,6 +111,8 @@ def rollout_detailed(first, last, numbers, keys, individuals, packed_tables, tab
                 not_finite_x_1[lane] = not_finite_x_1[lane] + select(is_finite(next_x_1), 0.0, running_[lane])
                 not_finite_middle_0[lane] = not_finite_middle_0[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
                 not_finite_middle_1[lane] = not_finite_middle_1[lane] + select(is_finite(next_middle_0), 0.0, running_[lane])
+                decided_1 = is_finite(abs(x_0[lane] - middle_0[lane])) & is_finite(abs(x_1[lane] - middle_0[lane]))
+                undecided[lane] = undecided[lane] + select(decided_1, 0.0, running_[lane])
                 steps_taken_[lane] = steps_taken_[lane] + running_[lane]
                 running_[lane] = select((next_x_0 < 0.0) | (next_x_1 < 0.0), 0.0, running_[lane])
                 x_0[lane] = next_x_0
@@ -132,3 +136,4 @@ def rollout_detailed(first, last, numbers, keys, individuals, packed_tables, tab
             not_finite[1, base + lane] = not_finite_x_1[lane]
             not_finite[2, base + lane] = not_finite_middle_0[lane]
             not_finite[3, base + lane] = not_finite_middle_1[lane]
+            not_finite[4, base + lane] = undecided[lane]

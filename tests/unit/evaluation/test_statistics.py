@@ -28,7 +28,7 @@ def outcome(returns, taken=4.0):
     returns = np.array(returns, np.float64)
     terms = np.stack([2 * returns, -returns], axis=1)
     control = np.tile([3.0, 0.0, 2 * taken - 3], (n, 1))
-    odd = np.tile([0.0, 0, 0, 2, 0, 0], (n, 1))
+    odd = np.tile([0.0, 0, 0, 2, 0, 0, 1], (n, 1))
     return DetailedOutcome(
         returns, control, terms, control, np.full(n, taken), odd, np.tile([2.0, 0.0], (n, 1))
     )
@@ -57,7 +57,7 @@ def test_sums_become_means_and_shares():
     assert found.expectation_share["a"] == 2 / 3
     assert math.isnan(found.expectation_share["b"])
     assert found.steps == pytest.approx(10 / 3)
-    assert found.not_finite == {"s_0_1": 6}
+    assert found.not_finite == {"s_0_1": 6, "what decides a cell or an index": 3}
     assert found.ci95 == (found.returns.low, found.returns.high)
 
 

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
 from tests.unit.problems import RICH, episode_of, lived, problem_of
 
 COUNTING = """
@@ -117,9 +118,9 @@ def test_steps_in_which_a_value_is_not_finite_are_counted_by_its_place():
     reward: {each: 1}
     """
     problem = problem_of(text)
-    counted = dict(
-        zip(problem.checked_slots, episode_of(problem, [[0]], [0]).not_finite[0].tolist(), strict=True)
-    )
+    *counts, deciding = episode_of(problem, [[0]], [0]).not_finite[0].tolist()
+    counted = dict(zip(problem.checked_slots, counts, strict=True))
+    assert deciding == 0
     assert counted == {
         ("w", None, ()): 1,
         ("x", 0, ()): 0,
@@ -162,3 +163,42 @@ def test_expectations_are_counted_after_the_steps_that_their_behavior_controlled
     assert outcome.steps_taken.tolist() == [3]
     assert outcome.control.tolist() == [[5, 0, 1, 0]]
     assert outcome.expectations_met.tolist() == [[3, 0]]
+
+
+DECIDING = """
+bbsd: 1
+name: deciding
+constants: {{sizes: [1, 2, 3]}}
+environment:
+  robots: {robots}
+  steps: 6
+  state: {{x: "0 * uniform(0, 1)", y: 1, waiting: "list(5, 6)"}}
+  dynamics: {{y: "{y}", waiting: "list(waiting[1], waiting[0])"}}
+behaviors:
+  look: {{inputs: {{seen: "{seen}"}}, actions: {{on: {{x: x}}}}}}
+reward: {{one: 1}}
+"""
+
+
+@pytest.mark.parametrize("robots", [2, 9])
+@pytest.mark.parametrize(
+    ("seen", "y", "steps"),
+    [
+        ("y > 0", "y", 0),
+        ("cut(y + step, 2, 3)", "sizes[step % 3]", 0),
+        ("cut(sqrt(3 - step), 0, 1)", "y", 3),  # in steps 4 to 6
+        ("x / (x * step) < 1", "y", 6),
+        ("values(floor(y / x * x), 0, 2)", "y", 6),
+        ("y > 0", "sizes[floor(x / x)]", 6),
+        ("y > 0", "sizes[floor(log(step - 3))]", 3),  # below 0 in steps 1 and 2, of 0 in step 3
+        ("y > 0", "waiting[floor(x / x)]", 6),
+        ("cut(y / x, 0, 1)", "waiting[floor(x / x)]", 6),
+    ],
+)
+def test_what_decides_a_cell_or_an_index_is_counted_where_it_is_not_finite(seen, y, steps, robots):
+    problem = problem_of(DECIDING.format(seen=seen, y=y, robots=robots))
+    *by_slot, deciding = episode_of(problem, [[1] * problem.tables[0].n_cells], [0]).not_finite[0].tolist()
+    assert not any(by_slot)
+    looped = robots > MOST_ROBOTS_WRITTEN_OUT
+    of_each_robot = looped and "x" in seen + y  # in a loop over robots each of them counts
+    assert deciding == steps * (robots if of_each_robot else 1)
