@@ -2,7 +2,7 @@
 
 __version__ = "0.1.0"
 
-REVISION = 3
+REVISION = 4
 """The number of what runs compute and keep, part of a run's identity and of its checkpoint.
 
 It goes up by one with every change after which the same spec and seed give other bytes of `architecture.yaml` or

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from bbsd.architecture.visits import Visits
     from bbsd.evaluation import Evaluation, Interval
+    from bbsd.runs.endings import Ending
     from bbsd.runs.rivals import Rival
     from bbsd.runs.visits import Unvisited
     from bbsd.solver.judgement import Selection
@@ -174,6 +175,8 @@ class Designed:
     """Where all random agents earn the same: the episodes after which the search had a better design."""
     unvisited: tuple[Unvisited, ...]
     """Behaviors that have open cells which no candidate's episodes visited."""
+    ended: tuple[Ending, ...] = ()
+    """The runs that ended before their budget was spent."""
     joint: Interval | None = None
     """What the joint policy of Q-learning earns in the same episodes, which behaviors may be unable to express.
 

@@ -27,6 +27,16 @@ def read_budget(text: str | None) -> tuple[list[str], float | None]:
         raise typer.BadParameter(message, param_hint="--budget") from None
 
 
+def read_time(text: str | None) -> float | None:
+    """Return the seconds of a time. Raises BadParameter where it is none."""
+    match = None if text is None else TIME.fullmatch(text.strip())
+    seconds = float(match["number"]) * SECONDS[match["unit"]] if match else 0.0
+    if text is not None and seconds <= 0:
+        message = f'"{text}" is no time, such as 90s, 10m or 2h'
+        raise typer.BadParameter(message, param_hint="--time-limit")
+    return seconds or None
+
+
 def read_seeds(text: str) -> range:
     """Return the seeds from the first to the last one of A-B. Raises BadParameter for another text."""
     match = SEEDS.fullmatch(text.strip())

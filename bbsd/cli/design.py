@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from bbsd.cli.access import stepping
-from bbsd.cli.budget import read_budget, read_seeds
+from bbsd.cli.budget import read_budget, read_seeds, read_time
 from bbsd.cli.continuing import former_design, say_how_to_continue
+from bbsd.cli.designed import show_design, show_price, show_seeds
 from bbsd.cli.options import (
     AllowImport,
     AsJson,
@@ -22,16 +23,12 @@ from bbsd.cli.options import (
 )
 from bbsd.cli.search_figures import CURVES, draw_search, require_figures
 from bbsd.cli.terminal.interrupts import INTERRUPTED
-from bbsd.cli.terminal.output import error_console, leave_now, say, show, show_table
+from bbsd.cli.terminal.output import error_console, leave_now, say
 from bbsd.cli.terminal.warnings import say_warnings
 from bbsd.cli.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
-from bbsd.report.plain import design_plain, disagreement_plain, json_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from bbsd.api import Designed
-    from bbsd.cli.access import Stepping
     from bbsd.language.loading import Loaded
 
 LEAST_BUDGET = 5_000
@@ -90,6 +87,15 @@ def design(
             help="Episodes of each run in all, such as 300_000; or seconds, such as 20s, "
             "which cannot be reproduced.",
             show_default="from the spec",
+        ),
+    ] = None,
+    time_limit: Annotated[
+        str | None,
+        typer.Option(
+            metavar="T",
+            help="End the searches after a time, such as 10m, with their final races; --more goes on. It cannot be "
+            "reproduced.",
+            show_default=False,
         ),
     ] = None,
     more: Annotated[
@@ -176,7 +182,7 @@ def design(
     require_engine(engine, scheduler)
     require_figures(plot, plot_to, plot_beside, seed)
     _make_folder(tensorboard)
-    set_by_budget, within = read_budget(budget)
+    (set_by_budget, within), limit = read_budget(budget), read_time(time_limit)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
     if spec.is_dir():
         # The folder of a design names its spec, its seed and its settings.
@@ -191,7 +197,7 @@ def design(
     processes = 0 if resume or seeds else min(runs, jobs) - 1
     if dry_run:
         starting = time.process_time() + (DRAWING if plot or plot_to else 0.0)
-        _show_price(
+        show_price(
             loaded, opening, seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting, as_json=as_json
         )
         return
@@ -225,6 +231,7 @@ def design(
                     overdue=leave,
                     engine=workers,
                     start=start or (),
+                    time_limit=limit,
                     **opening,
                 )
 
@@ -237,26 +244,16 @@ def design(
                     text = load(spec, seed=each, set=overrides)
                     several[each] = design_one(text, each, part, resume=resume and part.exists())
                     _write_events(several[each], tensorboard and tensorboard / f"seed-{each}")
-                _show_seeds(several, as_json=as_json)
+                show_seeds(several, as_json=as_json)
                 return
             designed = design_one(loaded, seed, out, resume=resume)
         except api.Interrupted as stopped:
             say_how_to_continue(stopped, out=out if seeds is None else base)
             raise typer.Exit(INTERRUPTED) from None
-    _show(designed, seed, runs, by_time=within is not None, as_json=as_json)
+    show_design(designed, seed, runs, by_time=within is not None, as_json=as_json)
     figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
     draw_search(designed, loaded.spec.name, seed, plot_beside, figures, opening)
     _write_events(designed, tensorboard)
-
-
-def _show_seeds(several: "Mapping[int, Designed]", *, as_json: bool) -> None:
-    if as_json:
-        designs = [design_plain(designed, seed, 1) for seed, designed in several.items()]
-        show(json_text({"designs": designs, **disagreement_plain(several.values())}))
-        return
-    from bbsd.report.tables import seeds_table
-
-    show_table(seeds_table(several))
 
 
 def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ...]:
@@ -266,24 +263,6 @@ def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ..
     if name is not None and name not in others:
         raise typer.BadParameter(f"{name} is none of {', '.join(others)}", param_hint="--rival")
     return others if every else () if name is None else (name,)
-
-
-def _show_price(
-    loaded: "Loaded",
-    opening: "Stepping",
-    seed: int,
-    *,
-    runs: int,
-    lanes: int,
-    jobs: int,
-    starting: float,
-    as_json: bool,
-) -> None:
-    from bbsd import api
-    from bbsd.report.price import price_plain, price_text
-
-    price = api.price(loaded, seed=seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting, **opening)
-    show(json_text(price_plain(price)) if as_json else price_text(price))
 
 
 def _say_which_method(loaded: "Loaded") -> None:
@@ -310,14 +289,3 @@ def _write_events(designed: "Designed", folder: Path | None) -> None:
     from bbsd.runs.storage.watching import look
 
     EventFiles(folder).update(look(designed.folder))
-
-
-def _show(designed: "Designed", seed: int, runs: int, *, by_time: bool, as_json: bool) -> None:
-    if by_time:
-        say("a budget by time cannot be reproduced: the same command may give another design")
-    if as_json:
-        show(json_text(design_plain(designed, seed, runs)))
-        return
-    from bbsd.report.tables import design_table
-
-    show_table(design_table(designed))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.errors.design_kinds import DESIGN_KINDS
 from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
 from bbsd.errors.expression_kinds import EXPRESSION_KINDS
 from bbsd.errors.kind import Severity
@@ -35,6 +36,7 @@ KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
     (
         *TEXT_KINDS,
         *SPEC_KINDS,
+        *DESIGN_KINDS,
         *EXPRESSION_KINDS,
         *OUTSIDE_KINDS,
         *LIST_KINDS,

@@ -328,38 +328,6 @@ SPEC_KINDS = (
         mend="view:\n  at: [robot, height]",
     ),
     DiagnosisKind(
-        code="BB070",
-        title="a budget beside generations",
-        explanation=(
-            "The episodes of the paper's loop are given by its generations, or by a budget from which the "
-            "generations follow; with both, one of the two would have no effect."
-        ),
-        example="design:\n  method: paper\n  budget: 300_000\n  coevolution:\n    generations: 50",
-        mend="design:\n  method: paper\n  budget: 300_000",
-    ),
-    DiagnosisKind(
-        code="BB071",
-        title="a setting of learning without effect",
-        explanation=(
-            "Exploration tries random structures in the episodes of a lifetime before the last ones. It does "
-            "nothing where there is no structure to learn, where all episodes are last ones, and in methods other than "
-            "paper; nor does what becomes of an explored structure, or of what is outside of the present one."
-        ),
-        example="design:\n  method: random\n  learning:\n    exploration: 0.1",
-        mend="design:\n  method: random",
-    ),
-    DiagnosisKind(
-        code="BB126",
-        title="settings that contradict one another",
-        explanation=(
-            "One setting of the paper's loop leaves another nothing to do: as many elites as a pool has individuals, "
-            "fewer agents than individuals to try, more last episodes than a lifetime has, records of generations "
-            "that never come."
-        ),
-        example="design:\n  coevolution:\n    population: 6\n    elites: 7",
-        mend="design:\n  coevolution:\n    population: 6\n    elites: 1",
-    ),
-    DiagnosisKind(
         code="BB127",
         title="a shape that differs from robot to robot",
         explanation=(

@@ -134,6 +134,20 @@ class Answer(Part):
     )
 
 
+class Stop(Part):
+    """When a run ends before its budget is spent, looked at whenever the best so far is measured."""
+
+    return_: float | None = Field(
+        None,
+        alias="return",
+        description="The return that is enough: the 95 % interval of the best so far lies above it, in episodes that "
+        "had no part in choosing it.",
+    )
+    unimproved: Annotated[Whole | None, Field(ge=1_000), BeforeValidator(grouped)] = Field(
+        None, description="Episodes after which the search ends where nothing better was found in them."
+    )
+
+
 class Design(Part):
     """How the holes of a spec are filled."""
 
@@ -152,6 +166,7 @@ class Design(Part):
         description="Episodes of a run in all, the final race included, at least 5,000; with `paper`, those of its "
         "generations.",
     )
+    stop: Stop = Field(Stop(), description="When a run ends before its budget is spent.")
     layers: Whole | None = Field(
         None,
         ge=1,

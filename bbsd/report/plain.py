@@ -63,6 +63,8 @@ def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
         "runs": runs,
         "search_episodes": designed.spent,
     }
+    if designed.ended:
+        plain["ended"] = [each.plain() for each in designed.ended]
     if designed.joint is not None:
         plain["joint_policy"] = interval_plain(designed.joint)
     if designed.each:

@@ -31,6 +31,7 @@ BLOCKS: Mapping[str, tuple[type[Part], ...]] = {
     "rules": (models.When, models.Otherwise),
     "view": (view.View,),
     "design": (design.Design,),
+    "design.stop": (design.Stop,),
     "design.coevolution": (design.Coevolution,),
     "design.learning": (design.Learning,),
     "design.culture": (design.CultureSettings,),

@@ -230,6 +230,13 @@ BUDGET_SCHEMA: Schema = {
         {"type": "string", "anyOf": [{"enum": ["auto"]}, {"pattern": f"^{field_types.GROUPED.pattern}$"}]},
     ]
 }
+UNIMPROVED_SCHEMA: Schema = {
+    "anyOf": [
+        {"type": "integer", "minimum": 1000},
+        {"type": "string", "pattern": f"^{field_types.GROUPED.pattern}$"},
+        {"type": "null"},
+    ]
+}
 RECORD_SCHEMA: Schema = {
     "anyOf": [
         {"type": "integer", "minimum": 1},
@@ -262,6 +269,7 @@ KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {
     (models.Environment, "observation"): OBSERVED_SCHEMA,
     (models.Spec, "structure"): {"type": "array", "items": _word_or_name(models.OPEN)},
     (design.Design, "budget"): BUDGET_SCHEMA,
+    (design.Stop, "unimproved"): UNIMPROVED_SCHEMA,
     (design.Design, "record"): RECORD_SCHEMA,
     (view.View, "at"): PLACE_SCHEMA,
     (view.View, "area"): CORNERS_SCHEMA,

@@ -12,6 +12,7 @@ from rich.text import Text
 
 from bbsd.errors import escape
 from bbsd.report.bars import bar
+from bbsd.report.endings import ending_lines
 from bbsd.report.numbers import column, count, duration, percent
 from bbsd.report.warnings import disagreement, warnings_of
 
@@ -56,6 +57,8 @@ def design_table(designed: Designed) -> RenderableType:
     parts: list[RenderableType] = [_structure(designed.structure), _fitness(designed)]
     if designed.each:
         parts.append(_runs(designed))
+    early = ending_lines([each.plain() for each in designed.ended], max(1, len(designed.each)))
+    parts += [Text(line) for line in early]
     parts += [Text(warning, "yellow") for warning in warnings_of(designed)]
     return Group(*_separated([*parts, where]))
 

@@ -45,6 +45,8 @@ class Command:
     """The budgets of each run, one after another; none for the paper's loop, which has generations."""
     seconds: float | None = None
     """The time of each run, at the end of the search's part of which its rounds end."""
+    is_limited: bool = False
+    """Whether that time is a limit beside the budget, rather than what the budget was worked out from."""
     origin: Origin | None = None
     """What the command is made of, so that a worker can make it too."""
 
@@ -109,10 +111,10 @@ class Command:
     ) -> Iterator[tuple[RunState, dict[str, Any] | None]]:
         """Continue a run from the state it has reached; yield its state after every step, and its line of metrics.
 
-        Rounds end at the deadline, on the monotonic clock, where there is one.
+        Rounds and generations end at the deadline, on the monotonic clock, where there is one.
         """
         if self.settings.method == "paper":
-            return generations(reached, self.problem, self.settings, self.seed)
+            return generations(reached, self.problem, self.settings, self.seed, deadline)
         return self._course(reached.run).steps(reached, self.budgets, deadline)
 
     def is_complete(self, reached: RunState) -> bool:

@@ -40,7 +40,7 @@ def rival_command(command: Command, method: str, loaded: Loaded) -> Command:
         folder=folder,
         who=who,
         budgets=budgets,
-        seconds=None,
+        seconds=command.seconds if command.is_limited else None,
         origin=origin,
     )
 

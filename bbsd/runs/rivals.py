@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bbsd.files import make_folder
 from bbsd.runs.answers import complete_runs
 from bbsd.runs.joint_policy import joint_policy_returns
-from bbsd.runs.rival_command import PAPER, paper_episodes, rival_command
+from bbsd.runs.rival_command import PAPER, rival_command
 from bbsd.runs.searching import UnsuitableMethod
 from bbsd.runs.storage.state import Searching
 from bbsd.solver.judgement import best_of, fresh_returns
@@ -66,10 +66,12 @@ def rival(
 
 def spent(command: Command) -> int:
     """Return the episodes of all runs of a command that is complete."""
-    if command.settings.method == PAPER:
-        return command.n_runs * paper_episodes(command.settings)
-    states = [command.reached(run) for run in range(command.n_runs)]
-    return sum(reached.state.spent for reached in states if reached and isinstance(reached.state, Searching))
+    states = [reached.state for run in range(command.n_runs) if (reached := command.reached(run))]
+    evolved, lifetime = command.settings.coevolution, command.settings.learning.episodes
+    return sum(
+        state.spent if isinstance(state, Searching) else state.generation * evolved.agents * lifetime
+        for state in states
+    )
 
 
 def each_run(command: Command, answers: list[Architecture]) -> tuple[tuple[Interval, tuple[str, ...]], ...]:

@@ -18,6 +18,7 @@ from bbsd.evaluation.sums import deviation, mean, row_means
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.runs.storage.state import RunState, Searching
 from bbsd.solver.arena import Arena
+from bbsd.solver.early import ENDINGS, NOT_ENDED, RETURN, TIME, UNIMPROVED, Measured, measured
 from bbsd.solver.methods.q_learning import TooManyJointCells
 from bbsd.solver.methods.registry import METHODS
 from bbsd.solver.search import ROUNDS, final_race, search_budget
@@ -47,6 +48,8 @@ RECORDS = 50
 """Records of a budget, at most."""
 LEAST_MEASURED = 40
 """Episodes of a record's measurements; with a small budget there are fewer records instead."""
+EARLY_RACE = 4_000
+"""Episodes of the race of a search that ends early, at least: what was not spent is more than that."""
 CHALLENGERS = 3
 """Champions that a record compares with the best so far."""
 
@@ -103,7 +106,8 @@ class Course:
         """Continue the run from the state it has reached until all budgets are spent.
 
         Yields the run's state after every round, with a line of metrics where the best so far was measured; and after
-        every race, with its answer. Where a deadline on the monotonic clock is given, rounds end at it.
+        every race, with its answer. Rounds end early where `design.stop` says so, and at the deadline, on the monotonic
+        clock, where there is one.
         """
         state, answer = reached.state, reached.answer
         if not isinstance(state, Searching):
@@ -112,17 +116,39 @@ class Course:
             budget = budgets[state.finished]
             limit = state.begun + search_budget(budget)
             plan = _Plan(budget)
-            while state.search.spent < limit:
+            if state.search.spent == state.begun:
+                state = replace(state, ended=NOT_ENDED, improved=state.begun)
+            while state.search.spent < limit and not state.ended:
                 search = self.method.advance(state.search, self.arena, self.stream, limit)
                 state, line = replace(state, search=search), None
-                if deadline is not None and time.monotonic() > deadline:
-                    budget, limit = _cut(state, budget), search.spent
-                if search.spent - state.recorded >= plan.interval or search.spent >= limit:
+                if deadline is not None and time.monotonic() > deadline and search.spent < limit:
+                    state = replace(state, ended=TIME)
+                if search.spent - state.recorded >= plan.interval or search.spent >= limit or state.ended:
                     state, line = self._recorded(state, plan.allowance)
+                    state = replace(state, ended=state.ended or self._ending(state, limit))
                 yield RunState(self.run, state, answer), line
-            left = budget - (state.search.spent - state.begun) - state.measured - plan.allowance
+            left = _cut(state, budget) if state.ended else budget
+            left -= (state.search.spent - state.begun) + state.measured + plan.allowance
+            if state.ended in (RETURN, UNIMPROVED):
+                whole = budget - (state.search.spent - state.begun) - state.measured - plan.allowance
+                left = max(left, min(EARLY_RACE, whole))
             state, answer, line = self._raced(state, answer, left, plan.allowance)
             yield RunState(self.run, state, answer), line
+
+    def _ending(self, state: Searching, limit: int) -> int:
+        """Return why a search that has reached this record ends before its limit, by its number in `ENDINGS`.
+
+        A budget beyond the first is wanted although the return may be enough.
+        """
+        stop, spent = self.settings.stop, state.search.spent
+        if spent >= limit:
+            return NOT_ENDED
+        best = Measured(state.best_mean, state.best_squares, state.best_count)
+        if stop.return_ is not None and not state.finished and best.low >= stop.return_:
+            return RETURN
+        if stop.unimproved is not None and spent - state.improved >= stop.unimproved:
+            return UNIMPROVED
+        return NOT_ENDED
 
     def _recorded(self, state: Searching, allowance: int) -> tuple[Searching, Line | None]:
         """Let the best so far and the fittest champions run common episodes, measure the better one, and record it."""
@@ -172,23 +198,33 @@ class Course:
 
         In the search a design whose mean is below that of the best so far does not take its place.
         """
-        value = float(self.arena.means(design, fold(stream, FRESH), count)[0])
-        state, total = replace(state, measured=state.measured + count), count
+        now = measured(self.arena.returns(design, fold(stream, FRESH), count)[0])
+        before = Measured(state.best_mean, state.best_squares, state.best_count)
+        state, improved = replace(state, measured=state.measured + count), state.improved
         if _same(design, state.best):
-            total += state.best_count
-            value = (value * count + state.best_mean * state.best_count) / total
-        elif stage == SEARCH and len(state.best) and value < state.best_mean:
-            design, value, total = state.best, state.best_mean, state.best_count
-        state = replace(state, best=design, best_mean=value, best_count=total)
+            now = before.joined(now)
+        elif stage == SEARCH and len(state.best) and now.mean < before.mean:
+            design, now = state.best, before
+        else:
+            improved = state.search.spent
+        state = replace(
+            state,
+            best=design,
+            best_mean=now.mean,
+            best_squares=now.squares,
+            best_count=now.episodes,
+            improved=improved,
+        )
         names = self.problem.names
         return state, {
             "run": self.run + 1,
             "method": self.settings.method,
             "stage": stage,
             "episodes": state.spent,
-            "mean": value,
-            "measured": total,
+            "mean": now.mean,
+            "measured": now.episodes,
             "structure": [names[behavior] for behavior in reversed(design.structures[0])],
+            **({"ended_by": ENDINGS[state.ended]} if stage == ANSWER and state.ended else {}),
         }
 
 

@@ -11,6 +11,7 @@ from bbsd.api.results import AnyProgress, Designed, Interrupted, Progress, Searc
 from bbsd.architecture import designed_text, tidy_tables
 from bbsd.evaluation.visits import visits_after_design
 from bbsd.runs.answers import complete_runs
+from bbsd.runs.endings import endings
 from bbsd.runs.joint_policy import joint_policy_returns
 from bbsd.runs.rival_command import paper_episodes
 from bbsd.runs.rivals import each_run, rival, spent
@@ -78,7 +79,13 @@ def carried_out(command: Command, kept: Kept, means: Means, started: float) -> D
     folder.write_architecture(text)
     write_visits(folder.path, text, problem.names, visits)
     names = tuple(problem.names[behavior] for behavior in reversed(judged.architecture.structure))
-    result = {"structure": names, "return": asdict(judged.evaluation.returns), DIGEST: digest_of(text)}
+    early = endings(command)
+    result = {
+        "structure": names,
+        "return": asdict(judged.evaluation.returns),
+        **({"ended": [each.plain() for each in early]} if early else {}),
+        DIGEST: digest_of(text),
+    }
     beginnings = () if command.origin is None else command.origin.beginnings
     overrides = kept.loaded.overrides
     folder.write_run_file(command.who, overrides, command.budgets, result, kept.fickle, beginnings)
@@ -103,6 +110,7 @@ def carried_out(command: Command, kept: Kept, means: Means, started: float) -> D
         rivals=others,
         first_reward=_first_reward(folder, judged.selection),
         unvisited=missed,
+        ended=early,
         joint=joint_policy_returns(command),
         not_reproducible=kept.fickle or "",
     )

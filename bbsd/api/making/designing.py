@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from bbsd.api.given.arguments import Assignments, checked, optional, path, require_none, whole
+from bbsd.api.given.arguments import Assignments, checked, number, optional, path, require_none, whole
 from bbsd.api.given.environments import opened_environment, problem_of
 from bbsd.api.making.carrying import Kept, Means, carried_out, why_fickle
 from bbsd.api.making.place import Wanted, former_of, place_of, require_former
@@ -41,7 +41,12 @@ if TYPE_CHECKING:
     from bbsd.solver.paper.settings import Settings
 
 
-@checked(more=optional(whole(LEAST_BUDGET)), below=optional(path), start=starts)
+@checked(
+    more=optional(whole(LEAST_BUDGET)),
+    below=optional(path),
+    start=starts,
+    time_limit=optional(number(above=0)),
+)
 def design(
     spec: AnySpec,
     *,
@@ -67,6 +72,7 @@ def design(
     by_table: bool = True,
     note: Callable[[str], object] | None = None,
     start: AnySpec | Sequence[AnySpec] = (),
+    time_limit: float | None = None,
 ) -> Designed:
     """Fill the holes of a spec; where a folder is named, write the design and its metrics into it.
 
@@ -107,6 +113,9 @@ def design(
         start: A known design, or a list of several, with which the search begins: they are among its first candidates
             and in its final race. Behaviors, cells and actions are matched by name; what a start leaves open is drawn.
 
+        time_limit: Seconds after which the searches end, with their final races; where runs go one after another, each
+            has its part. The result cannot be reproduced, and `more` goes on.
+
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         NothingToDesign: the spec has no holes, or is the folder of a run that is finished.
@@ -128,6 +137,7 @@ def design(
         spec, seed, runs, set, out = made.spec, made.seed, made.runs, made.overrides, former.path
     require_none(["below"] if None not in (below, out) else [], "beside out, the folder itself")
     require_none(["more"] if None not in (more, within) else [], "beside within")
+    require_none(["time_limit"] if None not in (time_limit, within) else [], "beside within")
     loaded = loaded_again(loaded_from(spec, seed, set), seed=seed)
     opened = opened_environment(
         loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
@@ -135,7 +145,9 @@ def design(
     problem = problem_with_holes(loaded, opened, lanes, jobs)
     method = loaded.spec.design.chosen_method
     if method == "paper" and (more is not None or within is not None):
-        raise NoBudget("the paper's loop has generations, which cannot be continued or timed")
+        raise NoBudget(
+            "the paper's loop has generations, which cannot be continued, and no budget that is a time"
+        )
     known_rivals(rivals, method)
     environment_identity = None if opened is None else opened.plain()
     known = cast("tuple[AnySpec, ...]", start)
@@ -167,7 +179,8 @@ def design(
             folder,
             run_identity,
             budgets,
-            within,
+            within if time_limit is None else time_limit / -(-runs // jobs),
+            time_limit is not None,
             origin_of(loaded, opened, beginnings),
         )
         kept = Kept(loaded, fickle, is_written=wanted.is_kept)

@@ -27,8 +27,27 @@ def report_contradictions(design: Design, findings: Findings, *, structure_is_op
     if design.chosen_method == "paper":
         for path, message, advice in _contradictions(design, structure_is_open=structure_is_open):
             findings.report(("design", *path), "BB126", message, KEY, advice)
+    episodes = _episodes(design, structure_is_open=structure_is_open)
+    wait = design.stop.unimproved
+    if wait is not None and episodes is not None and wait >= episodes:
+        message = (
+            f"a run has {episodes:,} episodes, so that it ends before {wait:,} pass without anything better"
+        )
+        findings.report(
+            ("design", "stop", "unimproved"), "BB171", message, KEY, "let it be less, or leave it out"
+        )
     for key, reason in _without_effect(design, structure_is_open=structure_is_open):
         findings.report(("design", "learning", key), "BB071", f"this has no effect: {reason}", KEY)
+
+
+def _episodes(design: Design, *, structure_is_open: bool) -> int | None:
+    """Return the episodes of a run, None where they are not known before it begins."""
+    if design.episodes is not None or design.chosen_method != "paper":
+        return design.episodes
+    if design.sharing == "difference":
+        return None
+    lifetime = design.learning.episodes if structure_is_open else design.learning.last
+    return design.coevolution.generations * design.coevolution.agents * lifetime
 
 
 def _contradictions(design: Design, *, structure_is_open: bool) -> Iterator[tuple[tuple[str, ...], str, str]]:

@@ -6,9 +6,10 @@ import shlex
 from difflib import SequenceMatcher
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import escape
+from bbsd.report.endings import ending_lines
 from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:
@@ -64,6 +65,8 @@ def repeat_plain(page: Page) -> dict[str, Plain]:
         commands.insert(0, _design_command(page.run.content))
         facts += [
             ("seed of the design", str(page.run.content.get("seed", ""))),
+            *(("search", line) for line in _early(page.run.content)),
+            *(("start", file) for file in _starts(page.run.content)),
             *((name, str(text)) for name, text in page.run.content.get("versions", {}).items()),
             *(
                 (f"digest of the spec's {block}", str(text))
@@ -76,6 +79,19 @@ def repeat_plain(page: Page) -> dict[str, Plain]:
         "commands": [escape(command) for command in commands],
         "facts": [[escape(name), escape(value)] for name, value in facts],
     }
+
+
+def _early(content: dict[str, Any]) -> list[str]:
+    """Return why runs ended early, in words."""
+    result, runs = content.get("result"), content.get("runs")
+    ended = result.get("ended") if isinstance(result, dict) else None
+    return ending_lines(ended, runs if isinstance(runs, int) else 1) if isinstance(ended, list) else []
+
+
+def _starts(content: dict[str, Any]) -> list[str]:
+    """Return the names of the files of known designs that the search began with."""
+    starts = content.get("starts", [])
+    return [str(each["file"]) for each in starts if isinstance(each, dict) and "file" in each]
 
 
 def _report_command(page: Page) -> str:
@@ -98,9 +114,10 @@ def _overrides(page: Page) -> list[str]:
     return [word for override in page.overrides for word in ("--set", override)]
 
 
-def _design_command(content: dict[str, object]) -> str:
+def _design_command(content: dict[str, Any]) -> str:
     words = ["bbsd", "design", "spec.yaml", "--seed", str(content.get("seed", 0))]
     words += ["--runs", str(content["runs"])] if content.get("runs", 1) != 1 else []
+    words += [word for file in _starts(content) for word in ("--start", file)]
     overrides = content.get("set", [])
     for override in overrides if isinstance(overrides, list) else []:
         words += ["--set", str(override)]

@@ -7,6 +7,7 @@ from math import isnan
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
+from bbsd.report.endings import ending_lines
 from bbsd.report.numbers import column
 from bbsd.report.plain import finite_or_none
 
@@ -55,6 +56,7 @@ def _plain(run: Listed) -> dict[str, Plain]:
         "budget": run.budget or None,
         "return": None if mean is None else {"mean": mean, "ci95": [low, high]},
         "best_so_far": best,
+        **({"ended": list(run.ended)} if run.ended else {}),
         "written": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(run.written)) if run.written else None,
     }
 
@@ -89,7 +91,8 @@ def _returns(runs: Sequence[Listed]) -> list[str]:
 
 def _notes(run: Listed) -> str:
     written_by = f"by {run.version}" if run.version else ""
-    return escape("; ".join(note for note in (run.detail, written_by) if note))
+    early = ending_lines(run.ended, run.runs)
+    return escape("; ".join(note for note in (run.detail, *early, written_by) if note))
 
 
 def _aligned(row: Sequence[str], widths: Sequence[int]) -> str:

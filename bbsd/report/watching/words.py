@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
 from bbsd.report.bars import bar, sparkline
+from bbsd.report.endings import ending_lines
 from bbsd.report.numbers import column, count
 
 if TYPE_CHECKING:
@@ -46,7 +47,9 @@ def state_line(now: Watched) -> str:
         return text
     mean, low, high = column([float(each) for each in numbers if each is not None])
     structure = escape(" ".join(map(str, now.result.get("structure", ()))))
-    return f"{text}: mean return {mean} ({low} to {high}), structure {structure}"
+    ended = now.result.get("ended")
+    early = ending_lines(ended, now.n_runs) if isinstance(ended, list) else []
+    return "; ".join([f"{text}: mean return {mean} ({low} to {high}), structure {structure}", *early])
 
 
 def watched_view(now: Watched, generations: int = 0, *, blocks: bool = True) -> RenderableType:

@@ -64,6 +64,8 @@ class Listed:
     high: float
     best: float
     """The best mean return that records have so far; NaN where there is none."""
+    ended: tuple[dict[str, Any], ...]
+    """What is recorded of runs that ended before their budget was spent."""
     written: float
     """When a file of the run was last written, in seconds since 1970; 0 where there is none."""
 
@@ -101,6 +103,7 @@ def listed(folder: Path) -> Listed:
         low=low,
         high=high,
         best=_best(now),
+        ended=_ended(now),
         written=max(map(_written, _files(folder)), default=0.0),
     )
 
@@ -204,6 +207,11 @@ def _content(path: Path) -> bytes:
 def _returns(now: Watched) -> Line:
     returns = now.result.get(RESULT)
     return returns if isinstance(returns, dict) else {}
+
+
+def _ended(now: Watched) -> tuple[dict[str, Any], ...]:
+    ended = now.result.get("ended")
+    return tuple(each for each in ended if isinstance(each, dict)) if isinstance(ended, list) else ()
 
 
 def _best(now: Watched) -> float:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.evaluation.sums import deviation, mean
+from bbsd.solver.early import ENDINGS
 
 if TYPE_CHECKING:
     from bbsd.compiler import Pool, Problem
@@ -26,6 +27,7 @@ def line(run: int, state: State, census: Census, problem: Problem) -> dict[str, 
         "lifetime": mean(census.lifetime_fitness),
         "diversity": {name: diversity(pool) for name, pool in zip(problem.names, state.pools, strict=True)},
         "structure": structure,
+        **({"ended_by": ENDINGS[state.ended]} if state.ended else {}),
     }
 
 

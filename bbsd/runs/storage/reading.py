@@ -20,6 +20,7 @@ LINE: dict[str, tuple[type, ...]] = {
     "lifetime": NUMBER,
     "method": (str,),
     "stage": (str,),
+    "ended_by": (str,),
     "diversity": (dict,),
     "structure": (list,),
 }

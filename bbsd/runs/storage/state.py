@@ -12,6 +12,7 @@ from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.runs.storage.checkpoint import CheckpointError
 from bbsd.solver.champions import Champions
 from bbsd.solver.climb import Climb
+from bbsd.solver.early import ENDINGS
 from bbsd.solver.methods.method import arrays_of, restored
 from bbsd.solver.methods.society import Society
 from bbsd.solver.paper.culture import Culture
@@ -40,6 +41,12 @@ class Searching:
     best_mean: float = 0.0
     """Its mean return in episodes that took no part in choosing it, and their number."""
     best_count: int = 0
+    best_squares: float = 0.0
+    """The sum of the squared deviations of its returns from that mean."""
+    improved: int = 0
+    """Episodes that rounds had spent when it became the best."""
+    ended: int = 0
+    """Why the latest budget was not spent, by its number in `ENDINGS`."""
     finished: int = 0
     """Budgets that are spent."""
     begun: int = 0
@@ -105,6 +112,8 @@ def _require_possible(value: object, fresh: object, problem: Problem) -> None:
     """Raise CheckpointError where a state holds tables or structures that the problem cannot have."""
     if isinstance(value, State) and isinstance(fresh, State):
         _require_pools(value, fresh, problem)
+    if isinstance(value, Searching):
+        _require(0 <= value.ended < len(ENDINGS), "why the run ended")
     if isinstance(value, Champions | Designs):
         _require_designs(value.tables, value.structures, problem)
     if isinstance(value, Champions):
@@ -131,6 +140,8 @@ def _require_pools(state: State, fresh: State, problem: Problem) -> None:
         _require(pool.shape == other.shape, "a pool's size")
         _require(bool(np.all(pool <= table.n_actions)), "the values of a pool")
     _require(state.fitness.shape == fresh.fitness.shape, "the size of the fitness")
+    _require(0 <= state.improved <= state.generation, "the generation that got better")
+    _require(0 <= state.ended < len(ENDINGS), "why the run ended")
     _require(0 <= state.generation <= problem.meaning.spec.design.coevolution.generations, "the generation")
 
 

@@ -43,6 +43,10 @@ class State:
     culture: Culture
     champions: Champions
     """The fittest agents of all generations so far."""
+    improved: int = 0
+    """The generation of the fittest agent so far."""
+    ended: int = 0
+    """Why the run ended before its last generation, by its number in `ENDINGS`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,7 +125,9 @@ def next_generation(state: State, problem: Problem, settings: Settings, run_key:
 
     champions = state.champions.joined(agents.with_structures(lifetimes.structures), fitness)
     census = Census(fitness, sharing.lifetime_fitness(lifetimes.returns), lifetimes.structures)
-    return State(generation, pools, shared, culture, champions), census
+    is_better = not len(state.champions.fitness) or champions.fitness[0] > state.champions.fitness[0]
+    improved = generation if is_better else state.improved
+    return State(generation, pools, shared, culture, champions, improved), census
 
 
 def initial_structures(

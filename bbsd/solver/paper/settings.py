@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from bbsd.solver.paper.genetics import Breeding
 
 if TYPE_CHECKING:
-    from bbsd.language.design import Answer, Coevolution, CultureSettings, Learning, MethodName
+    from bbsd.language.design import Answer, Coevolution, CultureSettings, Learning, MethodName, Stop
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.rates import Rates
     from bbsd.solver.starts import Starts
@@ -37,6 +37,8 @@ class Settings:
     """Whether there is a structure to learn."""
     rates: Rates
     """Mutation rates of each generation; learning rate α of (13) and exploration ε of each episode of a lifetime."""
+    stop: Stop
+    """When a run ends before its budget is spent."""
     starts: Starts | None = None
     """Known designs to begin with."""
 
@@ -77,6 +79,7 @@ def settings_of(meaning: Meaning, starts: Starts | None = None) -> Settings:
         answer=_answer_in_python(design.answer) if meaning.episode.outside else design.answer,
         learned=learned,
         rates=meaning.rates,
+        stop=design.stop,
         starts=starts,
     )
 

@@ -96,6 +96,7 @@ BAD = {
     "starting": [("1", "is a number of 0 or more"), (-1, "is a number of 0 or more")],
     "step": whole(1, none=True),
     "step_limit": above_zero(),
+    "time_limit": above_zero(none=True),
     "to": [(3, "is a text, not 3")],
     "unwanted": NAMES,
     "verify": TRUTHS,

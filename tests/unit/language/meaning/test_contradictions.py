@@ -106,6 +106,46 @@ def test_settings_that_contradict_are_told_at_the_key_that_is_written(
     assert not check(source(f"{TWO}design: {{method: random, {design}}}"))
 
 
+@pytest.mark.parametrize(
+    ("design", "episodes"),
+    [
+        ("budget: 50_000, stop: {unimproved: 50_000}", "50,000"),
+        (
+            "coevolution: {generations: 4, agents: 100}, learning: {episodes: 20}, stop: {unimproved: 9_000}",
+            "8,000",
+        ),
+        ("method: paper, budget: 50_000, stop: {unimproved: 60_000}", "50,000"),
+    ],
+)
+def test_a_reason_to_stop_that_never_comes_is_a_mistake(design: str, episodes: str) -> None:
+    text = source(f"{TWO}design: {{{design}}}")
+    (found,) = check(text)
+    assert (found.code, f"a run has {episodes} episodes" in found.message) == ("BB171", True)
+    assert text.line(found.place.line)[found.place.column - 1 :].startswith("unimproved")
+
+
+@pytest.mark.parametrize(
+    "design",
+    [
+        "stop: {unimproved: 5_000_000}",  # the budget is found when the design begins
+        "budget: 50_000, stop: {unimproved: 49_999}",
+        "sharing: difference, coevolution: {generations: 1}, stop: {unimproved: 5_000_000}",
+        "stop: {return: -3}",
+        "stop: {}",
+    ],
+)
+def test_other_reasons_to_stop_are_none(design: str) -> None:
+    assert codes(f"{TWO}design: {{{design}}}") == []
+
+
+@pytest.mark.parametrize(
+    "stop", ["{unimproved: 999}", "{unimproved: 0.5}", "{return: .inf}", "{return: high}", "300"]
+)
+def test_a_reason_to_stop_is_a_number(stop: str) -> None:
+    (found,) = check(source(f"{TWO}design: {{stop: {stop}}}"))
+    assert found.code in ("BB022", "BB023", "BB024")
+
+
 def test_what_follows_from_a_rate_is_told_at_that_rate() -> None:
     text = source(f"{TWO}design: {{coevolution: {{hard_mutation: 0.6}}}}")
     (found,) = check(text)
