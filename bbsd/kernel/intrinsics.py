@@ -13,7 +13,6 @@ from numba import boolean, float64, int64, types, uint64
 from numba.core.imputils import impl_ret_borrowed
 from numba.core.typing.templates import infer_global, signature
 from numba.extending import lower_builtin, models, register_model, type_callable
-from numba.np.arrayobj import make_array
 
 from bbsd.kernel import memory, primitives
 
@@ -52,21 +51,22 @@ def register() -> None:
     lower_builtin(memory.part, types.Array, types.Any, types.Any)(_view)
 
 
-class _CompiledFunction(types.Dispatcher):
+class CompiledFunction(types.Dispatcher):
     """The type of a library function: numba need not compile it again for the literals in a call."""
 
     def get_call_type(
         self, context: Context, args: Sequence[types.Type], kws: Mapping[str, types.Type]
     ) -> Signature | None:
+        """Return the signature of a call with arguments of these types."""
         return super().get_call_type(context, tuple(map(types.unliteral, args)), kws)
 
 
-register_model(_CompiledFunction)(models.OpaqueModel)
+register_model(CompiledFunction)(models.OpaqueModel)
 
 
 def offer(function: Function, compiled: Dispatcher) -> None:
     """Make a library function callable in compiled code by its compiled form, which the caller must keep."""
-    infer_global(function, _CompiledFunction(compiled))
+    infer_global(function, CompiledFunction(compiled))
 
 
 def _register_primitive(function: Function, typed: Callable[[Context], Typer], emit: Emit) -> None:
@@ -177,18 +177,21 @@ def _view(
 ) -> ir.Value:
     """Emit a view of an array: the same memory with other elements, or a number of elements from a first one on."""
     array, *part = values
-    source = make_array(sig.args[0])(context, builder, array)
-    view = make_array(sig.return_type)(context, builder)
-    for name in ("meminfo", "parent", "nitems", "itemsize", "shape", "strides"):
-        setattr(view, name, getattr(source, name))
-    data = source.data
-    if part:
-        first, view.nitems = part
-        view.shape = builder.insert_value(view.shape, view.nitems, 0)
-        data = builder.gep(data, [first])
-    view.data = builder.bitcast(data, view.data.type)
-    value = view._getvalue()  # noqa: SLF001 - as numba's own documentation does it
-    return impl_ret_borrowed(context, builder, sig.return_type, value)
+    source, result = (context.data_model_manager[each] for each in (sig.args[0], sig.return_type))
+    view = ir.Constant(result.get_value_type(), ir.Undefined)
+    for name in ("meminfo", "parent", "nitems", "itemsize", "data", "shape", "strides"):
+        value = source.get(builder, array, name)
+        match name, part:
+            case "nitems", (_, size):
+                value = size
+            case "shape", (_, size):
+                value = builder.insert_value(value, size, 0)
+            case "data", (first, _):
+                value = builder.gep(value, [first])
+            case "data", ():
+                value = builder.bitcast(value, context.get_data_type(sig.return_type.dtype).as_pointer())
+        view = result.set(builder, view, value, name)
+    return impl_ret_borrowed(context, builder, sig.return_type, view)
 
 
 FIXED: tuple[tuple[Function, Signature, Emit], ...] = (
