@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, get_args
 
 from bbsd.language.base import Part
@@ -36,22 +37,25 @@ def field_at(path: Path) -> FieldInfo | None:
 
 def blocks_with(key: str) -> list[str]:
     """Return the blocks that have a key of this name, as paths; a spec itself is the top level."""
+    return [name for name, keys in _blocks() if key in keys]
+
+
+@cache
+def _blocks() -> list[tuple[str, frozenset[str]]]:
+    """Return all blocks, each with its keys; looked up once, since a spec may have thousands of unexpected keys."""
     blocks: list[tuple[str, type[Part]]] = [
         ("the top level", Spec),
         ("a behavior", Behavior),
         ("a rule", When),
     ]
-    names = []
-    while blocks:
-        name, part = blocks.pop(0)
-        names += [name] if key in part.fields_by_key() else []
+    for name, part in blocks:  # it grows while it is read
         prefix = "" if part is Spec else f"{name}."
         blocks += [
             (f"{prefix}{inner_key}", inner)
             for inner_key, field in part.fields_by_key().items()
             for inner in _parts(field.annotation)
         ]
-    return names
+    return [(name, frozenset(part.fields_by_key())) for name, part in blocks]
 
 
 def _parts(annotation: object) -> Iterator[type[Part]]:
