@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.options import spec_files
+from bbsd.cli.options import AsJson, spec_files
 from bbsd.cli.terminal.mistakes import MISTAKE
 from bbsd.cli.terminal.output import diff_text, has_color, say, show, show_commands
 from bbsd.errors import KINDS, SpecError, describe, did_you_mean
@@ -47,6 +47,7 @@ def check(
     form: Annotated[
         MistakeFormat, typer.Option("--format", help="Format of the output.")
     ] = MistakeFormat.TEXT,
+    as_json: AsJson = False,
     strict: Annotated[
         bool, typer.Option("--strict", help="Exit with code 2 if there are warnings too.")
     ] = False,
@@ -80,7 +81,7 @@ def check(
         show(_description(code))
     elif specs:
         fixing = Fixing.NO if not fix else Fixing.SHOWN if diff else Fixing.WRITTEN
-        _check(specs, form, fixing, strict=strict, every_hole=every_hole)
+        _check(specs, MistakeFormat.JSON if as_json else form, fixing, strict=strict, every_hole=every_hole)
     else:
         raise typer.BadParameter("give a SPEC, or --describe CODE")
 

@@ -12,11 +12,13 @@ from bbsd.cli.continuing import former_design, say_how_to_continue
 from bbsd.cli.designed import show_design, show_price, show_seeds
 from bbsd.cli.options import (
     AllowImport,
+    AsFormat,
     AsJson,
     ImportFrom,
     InPython,
     Lanes,
     Overrides,
+    ResultFormat,
     Seed,
     StepLimit,
     spec_files,
@@ -165,6 +167,7 @@ def design(
     import_from: ImportFrom = None,
     step_limit: StepLimit = 30.0,
     in_python: InPython = False,
+    form: AsFormat = ResultFormat.TEXT,
     as_json: AsJson = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only estimate what the design would cost; write nothing.")
@@ -178,6 +181,7 @@ def design(
     """
     from bbsd.api.specs import load
 
+    as_json = as_json or form is ResultFormat.JSON
     opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     require_engine(engine, scheduler)
     require_figures(plot, plot_to, plot_beside, seed)

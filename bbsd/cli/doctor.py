@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.options import AsJson
+from bbsd.cli.options import AsFormat, AsJson, ResultFormat
 from bbsd.cli.terminal.output import say, show
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ PROBLEM = 1
 Clean = Annotated[bool, typer.Option("--clean", help="Empty the cache of compiled code first.")]
 
 
-def doctor(clean: Clean = False, as_json: AsJson = False) -> None:
+def doctor(clean: Clean = False, form: AsFormat = ResultFormat.TEXT, as_json: AsJson = False) -> None:
     """Check the installation: versions, cores, caches, a test result.
 
     The test is also compiled, which takes some seconds where the cache is empty. Exits with code 1 if something is
@@ -33,7 +33,7 @@ def doctor(clean: Clean = False, as_json: AsJson = False) -> None:
         say(f"{cache.clean(root) / 1e6:.1f} MB removed from {root}")
     findings = list(examine())
     is_well = not any(finding.problem for finding in findings)
-    if as_json:
+    if as_json or form is ResultFormat.JSON:
         show(json_text({"ok": is_well, "findings": [asdict(finding) for finding in findings]}))
     else:
         show("\n".join(map(_line, findings)))

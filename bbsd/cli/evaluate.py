@@ -10,6 +10,7 @@ import bbsd
 from bbsd.cli.access import stepping
 from bbsd.cli.options import (
     AllowImport,
+    AsFormat,
     AsJson,
     DesignFile,
     Episode,
@@ -18,6 +19,7 @@ from bbsd.cli.options import (
     Jobs,
     Lanes,
     Overrides,
+    ResultFormat,
     Seed,
     StepLimit,
     read_episode,
@@ -143,6 +145,7 @@ def evaluate(
     import_from: ImportFrom = None,
     step_limit: StepLimit = 30.0,
     in_python: InPython = False,
+    form: AsFormat = ResultFormat.TEXT,
     as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
@@ -160,6 +163,7 @@ def evaluate(
         raise typer.BadParameter("--fault goes with --episodes, --seed, --relearn and --at-least alone")
     if relearn and not fault:
         raise typer.BadParameter("--relearn needs --fault")
+    as_json = as_json or form is ResultFormat.JSON
     chosen = read_episode(episode)
     _require_use(chosen, values, trace, plot)
     if exact and isinstance(chosen, str):

@@ -113,8 +113,7 @@ InPython = Annotated[
     ),
 ]
 
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
-FormatIsJson = Annotated[bool, typer.Option("--json", help="The same as --format json.")]
+AsJson = Annotated[bool, typer.Option("--json", help="The same as --format json.")]
 
 
 class ResultFormat(StrEnum):

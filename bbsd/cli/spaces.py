@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from bbsd.cli.access import access
-from bbsd.cli.options import AllowImport, AsJson, ImportFrom, Overrides, StepLimit, spec_files
+from bbsd.cli.options import (
+    AllowImport,
+    AsFormat,
+    AsJson,
+    ImportFrom,
+    Overrides,
+    ResultFormat,
+    StepLimit,
+    spec_files,
+)
 from bbsd.cli.terminal.output import show
 
 if TYPE_CHECKING:
@@ -38,6 +47,7 @@ def spaces(
     allow_import: AllowImport = None,
     import_from: ImportFrom = None,
     step_limit: StepLimit = 30.0,
+    form: AsFormat = ResultFormat.TEXT,
     as_json: AsJson = False,
 ) -> None:
     """Show what an environment stepped in Python observes and takes.
@@ -57,7 +67,7 @@ def spaces(
         set=overrides or (),
         **access(allow_import, import_from, step_limit),
     )
-    _show(found, as_json=as_json)
+    _show(found, as_json=as_json or form is ResultFormat.JSON)
     if found.mistakes is not None:
         raise found.mistakes
 

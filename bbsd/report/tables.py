@@ -50,11 +50,11 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
 
 
 def design_table(designed: Designed) -> RenderableType:
-    """Return tables of the structure, highest layer first, and of the design's fitness and that of random agents."""
+    """Return tables of the structure, highest layer first, and of the returns of the design and of random agents."""
     path = escape(str(designed.architecture))
     # People copy the path, so it is never broken into lines.
     where = Text(f"{path}, designed in {duration(designed.seconds)}", no_wrap=True, overflow="ignore")
-    parts: list[RenderableType] = [_structure(designed.structure), _fitness(designed)]
+    parts: list[RenderableType] = [_structure(designed.structure), _returns(designed)]
     if designed.each:
         parts.append(_runs(designed))
     early = ending_lines([each.plain() for each in designed.ended], max(1, len(designed.each)))
@@ -197,9 +197,9 @@ def _structure(structure: Sequence[str]) -> Table:
     return table
 
 
-def _fitness(designed: Designed) -> Table:
-    """Return the table of fitness; all its numbers have the same decimals, to compare them at a glance."""
-    rows = {"fitness": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode"))}
+def _returns(designed: Designed) -> Table:
+    """Return the table of mean returns; all its numbers have the same decimals, to compare them at a glance."""
+    rows = {"design": (designed.evaluation.returns, count(designed.evaluation.episodes, "new episode"))}
     if designed.lifetime is not None:
         rows["lifetime fitness"] = (designed.lifetime, count(designed.lifetime.count, "lifetime"))
     if designed.joint is not None:

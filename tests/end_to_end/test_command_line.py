@@ -159,7 +159,7 @@ def test_a_design_is_a_folder_with_a_table_for_its_reader(designed):
     assert {"architecture.yaml", "metrics.jsonl", "run.json", "spec.yaml", "curves.png"} <= {
         path.name for path in folder.iterdir()
     }
-    assert [line.split()[0] for line in out.splitlines() if line][-4:-1] == ["fitness", "lifetime", "random"]
+    assert [line.split()[0] for line in out.splitlines() if line][-4:-1] == ["design", "lifetime", "random"]
     note, *lines = err.splitlines()
     assert "names no method, so it is designed by the paper's loop" in note
     assert [line.partition(":")[0] for line in lines] == [f"generation {g}/4" for g in (1, 2, 3, 4)]
@@ -184,7 +184,7 @@ def test_curves_are_drawn_only_when_asked_for(designed, tmp_path):
     assert not (folder / "curves.png").exists()
     code, out, _ = bbsd("design", SPEC, "--out", folder, "--quiet", "--resume", "--plot")
     assert code == 0
-    assert "fitness" in out
+    assert "mean return" in out
     assert (folder / "curves.png").read_bytes() == (designed[0] / "curves.png").read_bytes()
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsFormat, FormatIsJson, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
+from bbsd.cli.options import AsFormat, AsJson, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
 from bbsd.cli.terminal.output import say, show, show_table
 from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
@@ -40,7 +40,7 @@ def compare(
     ] = None,
     overrides: Overrides = None,
     form: AsFormat = ResultFormat.TEXT,
-    as_json: FormatIsJson = False,
+    as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
 ) -> None:

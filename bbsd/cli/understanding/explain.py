@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import DesignFile, FormatIsJson, Overrides, Seed
+from bbsd.cli.options import AsJson, DesignFile, Overrides, Seed
 from bbsd.cli.terminal.output import say, show
 from bbsd.errors import escape
 from bbsd.report.plain import json_text
@@ -50,7 +50,7 @@ def explain(
             help="Sentences; decision tables, and the whole as one table; decision trees; diagrams; or JSON.",
         ),
     ] = ExplanationFormat.TEXT,
-    as_json: FormatIsJson = False,
+    as_json: AsJson = False,
 ) -> None:
     """Describe what a design does by the shortest rules.
 

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson
+from bbsd.cli.options import AsFormat, AsJson, ResultFormat
 from bbsd.cli.terminal.output import say, show
 
 
@@ -17,6 +17,7 @@ def runs(
             metavar="FOLDER", help="Folders of runs, or folders that hold such.", show_default="runs"
         ),
     ] = None,
+    form: AsFormat = ResultFormat.TEXT,
     as_json: AsJson = False,
 ) -> None:
     """List runs with their state, and what came out so far.
@@ -29,7 +30,8 @@ def runs(
 
     places = folders or []
     found = bbsd.runs_in(*places)
-    show(json_text(listing_plain(found)) if as_json else listing_text(found))
+    is_json = as_json or form is ResultFormat.JSON
+    show(json_text(listing_plain(found)) if is_json else listing_text(found))
     if not found:
         say(f"there are no runs in {', '.join(map(str, places)) or 'runs'}")
     elif len(found) == 1 and found[0].state == "stopped" and not found[0].version:

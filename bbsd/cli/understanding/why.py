@@ -7,9 +7,9 @@ import typer
 import bbsd
 from bbsd.cli.options import (
     AsFormat,
+    AsJson,
     DesignFile,
     Episode,
-    FormatIsJson,
     Overrides,
     ResultFormat,
     Seed,
@@ -63,7 +63,7 @@ def why(
     seed: Seed = 0,
     overrides: Overrides = None,
     form: AsFormat = ResultFormat.TEXT,
-    as_json: FormatIsJson = False,
+    as_json: AsJson = False,
 ) -> None:
     """Say why a robot did what it did in a step.
 

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import DesignFile, FormatIsJson, Jobs, Lanes, Overrides, Seed
+from bbsd.cli.options import AsJson, DesignFile, Jobs, Lanes, Overrides, Seed
 from bbsd.cli.terminal.output import show, show_table
 from bbsd.report.plain import json_text
 
@@ -34,7 +34,7 @@ def worth(
             help="Format of the output; dot and mermaid draw what must stand above what, and nothing else.",
         ),
     ] = WorthFormat.TEXT,
-    as_json: FormatIsJson = False,
+    as_json: AsJson = False,
     lanes: Lanes = 40,
     jobs: Jobs = 1,
 ) -> None:

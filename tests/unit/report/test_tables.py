@@ -86,7 +86,7 @@ def test_a_design_shows_its_structure_from_the_highest_layer_down(designed):
 
 def test_a_design_is_compared_with_random_agents(designed):
     text = printed(design_table(designed))
-    assert row(text, "fitness")[1:5] == ["301.37", "300.94", "to", "301.81"]
+    assert row(text, "design")[1:5] == ["301.37", "300.94", "to", "301.81"]
     assert row(text, "lifetime")[2:6] == ["299.20", "296.20", "to", "302.20"]
     assert row(text, "random")[2:6] == ["-612.30", "-642.50", "to", "-582.10"]
     assert "runs/lifting-seed0/architecture.yaml, designed in 41.2 s" in text
