@@ -15,17 +15,10 @@ from bbsd.expression.checks import has_arguments, require_finite, require_kind, 
 from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
-from bbsd.expression.mistaken.cells import compared_with_cell
 from bbsd.expression.mistaken.draws import impossible_draw, missing_first
-from bbsd.expression.naming import (
-    choose,
-    compare,
-    is_unknown,
-    report_no_value,
-    report_unknown_values,
-    settled,
-)
+from bbsd.expression.naming import report_unknown_values, settled
 from bbsd.expression.operations import BY_WORD
+from bbsd.expression.relations import comparison, conditional
 from bbsd.expression.scope import Definition, Named, Unusable
 from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import render
@@ -60,9 +53,6 @@ EXPRESSION_WORK = 5
 
 STORED = (("environment", "state"), ("environment", "world"))
 """Where `one of [...]` may stand."""
-
-COMPARISON_WORK = 5
-"""The work of a comparison, beside that of its nodes: long conditions repeat few nodes often."""
 
 
 def number(expr: Expr, scope: Scope) -> Node:
@@ -138,11 +128,11 @@ def _value(expr: Expr, scope: Scope) -> Value:
         case Binary():
             return _arithmetic(expr, scope)
         case Comparison():
-            return _comparison(expr, scope)
+            return comparison(expr, scope, _value)
         case Logical():
             return _logical(expr, scope)
         case Conditional():
-            return _conditional(expr, scope)
+            return conditional(expr, scope, _value)
         case Call():
             return _call(expr, scope)
         case Index():
@@ -211,70 +201,6 @@ def _power(expr: Binary, scope: Scope) -> Node:
 def _logical(expr: Logical, scope: Scope) -> Node:
     nodes = [_of_kind(operand, Kind.TRUTH, scope) for operand in expr.operands]
     return scope.graph.fold(BY_WORD[expr.operator], nodes)
-
-
-def _comparison(expr: Comparison, scope: Scope) -> Node:
-    scope.graph.spend(COMPARISON_WORK)
-    if (mistaken := compared_with_cell(expr, scope)) is not None:
-        return mistaken
-    nodes: list[Node] = []
-    values: list[Value] = []
-    for operand in expr.operands:
-        node = scope.graph.unknown if is_unknown(operand, scope) else _value(operand, scope)
-        if isinstance(node, tuple):
-            advice = "compare elements, or use any(...) or all(...)"
-            return scope.mistake("BB056", "lists cannot be compared", operand.span, advice)
-        values.append(node)
-        nodes.append(node.node if isinstance(node, Named) else node)
-    _report_unknown_operands(expr, values, scope)
-    if (compared := compare(expr, values, scope)) is not None:
-        return compared
-    kinds = {node.kind for node in nodes} - {Kind.UNKNOWN}
-    if len(kinds) > 1:
-        return scope.mistake("BB055", "a truth is compared with a number", expr.span)
-    if kinds == {Kind.TRUTH} and not set(expr.operators) <= {"==", "!="}:
-        return scope.mistake("BB055", "truths have no order; they can only be == or !=", expr.span)
-    pairs = [*zip(expr.operators, nodes, nodes[1:], strict=False)]
-    for operator, left, right in pairs:
-        if operator in ("==", "!=") and Kind.NUMBER is left.kind is right.kind:
-            scope.findings.equalities.append((scope.path, expr.span, left, right))
-    return scope.graph.fold("&", [scope.graph.apply(operator, *pair) for operator, *pair in pairs])
-
-
-def _report_unknown_operands(expr: Comparison, values: list[Value], scope: Scope) -> None:
-    """Report operands that are names which nothing has: beside a state with names they stand for its values."""
-    pairs = [*zip(expr.operands, values, strict=True)]
-    known = next(
-        ((other, each) for other, each in pairs if isinstance(each, Named) and each.is_settled), None
-    )
-    for operand in expr.operands:
-        if not isinstance(operand, Name) or not is_unknown(operand, scope):
-            continue
-        if known is None:
-            name_value(operand, scope, _value)
-        else:
-            report_no_value(operand.name, operand.span, render(known[0]), known[1].names, scope)
-
-
-def _conditional(expr: Conditional, scope: Scope) -> Value:
-    condition = _of_kind(expr.condition, Kind.TRUTH, scope)
-    arms: list[Node | Named] = []
-    for arm in (expr.then, expr.otherwise):
-        node = _value(arm, scope)
-        if isinstance(node, tuple):
-            message = "a conditional chooses between single values, not lists"
-            return scope.mistake("BB056", message, arm.span)
-        arms.append(node)
-    then, otherwise = arms
-    kinds = {then.kind, otherwise.kind} - {Kind.UNKNOWN}
-    if len(kinds) > 1:
-        message = f"one arm is {then.kind.value}, the other {otherwise.kind.value}"
-        return scope.mistake("BB139" if Kind.NAMED in kinds else "BB055", message, expr.span)
-    if isinstance(then, Named) and isinstance(otherwise, Named):
-        return choose(condition, then, otherwise, expr.span, scope)
-    if isinstance(then, Named) or isinstance(otherwise, Named):
-        return scope.graph.unknown
-    return scope.graph.apply("select", condition, then, otherwise)
 
 
 def _call(expr: Call, scope: Scope) -> Value:

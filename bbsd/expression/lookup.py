@@ -82,9 +82,15 @@ def _without_value(expr: Name, scope: Scope) -> Node:
 
 def _unknown_name(expr: Name, scope: Scope) -> Node:
     message = _unknown(expr.name, scope)
-    near = nearest(expr.name, [*scope.local, *scope.names, *CONSTANTS]) if "did you mean" in message else ""
+    near = (
+        nearest(expr.name, [*scope.local, *scope.names, *CONSTANTS, *scope.choices])
+        if "did you mean" in message
+        else ""
+    )
     correction = Rewriting(near, expr.span, is_certain=False) if near else None
-    return scope.mistake("BB052", message, expr.span, correction=correction)
+    is_start = scope.path[:-1] in (("environment", "state"), ("environment", "world"))
+    advice = f"if it is one of several names, write them: one of [{expr.name}, ...]" if is_start else ""
+    return scope.mistake("BB052", message, expr.span, advice, correction=correction)
 
 
 def _unknown(name: str, scope: Scope) -> str:

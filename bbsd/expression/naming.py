@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
+from bbsd.errors.suggestion import nearest
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Named
+from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import number_text, render
 from bbsd.expression.syntax.tree import Conditional, Name, OneOf
 from bbsd.expression.vocabulary import CONSTANTS
@@ -52,7 +54,9 @@ def report_no_value(name: str, span: Span, what: str, names: Names, scope: Scope
     if not scope.findings.is_first((scope.path, span)):
         return scope.graph.unknown
     message = f'"{name}" is no value of {what}{did_you_mean(name, names)}'
-    return scope.mistake("BB137", message, span, f"{what} is {listed(names)}")
+    near = nearest(name, names)
+    correction = Rewriting(near, span, is_certain=False) if near else None
+    return scope.mistake("BB137", message, span, f"{what} is {listed(names)}", correction)
 
 
 def report_unknown_values(expr: Expr, what: str, names: Names, scope: Scope) -> None:

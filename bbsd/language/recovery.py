@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, cast
 from bbsd.expression.syntax.one_of import is_one_of
 from bbsd.expression.vocabulary import WORDS
 from bbsd.language.outside import UNUSED
-from bbsd.language.validation import child, names_lost, path_of, validate
+from bbsd.language.validation import child, names_in, names_lost, path_of, validate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -122,8 +122,9 @@ def _names_below(error: ErrorDetails) -> set[str]:
 def _values_lost(error: ErrorDetails) -> set[str]:
     """Return the names of a state's values that could not be read."""
     text = error["input"]
-    is_lost = error["type"] == "expression" and isinstance(text, str) and is_one_of(text)
-    return {*re.findall(r"\w+", text)} - WORDS if is_lost else set()
+    if error["type"] == "expression" and isinstance(text, str) and is_one_of(text):
+        return {*re.findall(r"\w+", text)} - WORDS
+    return {*names_in(text)} if error["type"] == "not_an_expression" else set()
 
 
 def _dependent(path: Path) -> set[str]:

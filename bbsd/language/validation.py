@@ -12,7 +12,7 @@ from bbsd.errors import did_you_mean
 from bbsd.expression.foreign.translating import translated
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
 from bbsd.expression.vocabulary import WORDS
-from bbsd.language.field_types import kind_of, scalar_text
+from bbsd.language.field_types import is_value_name, kind_of, scalar_text
 from bbsd.language.goals import goal_mistake, is_block_of_costs, is_goal
 from bbsd.language.keys import blocks_with, field_at, fields_at
 from bbsd.language.models import Spec
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from bbsd.text import Data
 
 MAX_ERRORS = 1000
+MAX_NAMES = 12
+"""Names that an advice repeats."""
 MAX_QUOTED = 40
 """Characters of a wrong text that a message quotes."""
 
@@ -175,11 +177,22 @@ def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
         hint = did_you_mean(str(error["input"]), needed.split(" or "))
     elif error["type"] == "string_type" and isinstance(error["input"], int | float):
         advice = "put it in quotes"
+    elif path[:2] in STORED and (names := names_in(error["input"])):
+        advice = f"for a value that is one of several names, write one of [{', '.join(names)}]"
     elif isinstance(error["input"], str) and needed.startswith("a list"):
         advice = "a list is written in brackets: [one, another]"
     return Mistake(
         code, f"{named(path)} must be {needed}, not {show_value(error['input'])}{hint}", WHOLE, advice
     )
+
+
+STORED = (("environment", "state"), ("environment", "world"))
+
+
+def names_in(value: object) -> list[str]:
+    """Return the items of a short list that could all be names of values, else none."""
+    items = value if isinstance(value, list) and 1 < len(value) <= MAX_NAMES else []
+    return items if all(isinstance(item, str) and is_value_name(item) for item in items) else []
 
 
 NEEDED_BY_KEY = {

@@ -30,6 +30,8 @@ from bbsd.expression.syntax.unreadable import EQUALITY, find_culprit
 
 MAX_LENGTH = 4000
 MAX_DEPTH = 40
+MAX_COMPARED = 6
+"""Items of a list with which an advice compares one by one."""
 
 NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
 MEANINGLESS = re.compile(r"#|[^\n\t -~]")
@@ -129,6 +131,18 @@ def _error(code: str, message: str, start: int, length: int, advice: str = "") -
     return ExpressionError(Mistake(code, message, Span(start, max(length, 1)), advice))
 
 
+def _instead_of_in(node: ast.expr) -> str:
+    """Return the advice to compare with each item of a list of names or numbers."""
+    match node:
+        case ast.Compare(
+            left=ast.Name(id=name), ops=[ast.In()], comparators=[ast.List(elts) | ast.Tuple(elts)]
+        ):
+            items = [ast.unparse(item) for item in elts if isinstance(item, ast.Name | ast.Constant)]
+            if 0 < len(items) == len(elts) <= MAX_COMPARED:
+                return f"write {' or '.join(f'{name} == {item}' for item in items)}"
+    return "compare with == or !="
+
+
 def _is_free(name: str) -> bool:
     return NAME.match(name) is not None and name not in RESERVED[Use.VALUE]
 
@@ -224,7 +238,7 @@ class _Builder:
 
     def comparison(self, node: ast.expr, operator: ast.cmpop) -> str:
         if type(operator) not in COMPARE:
-            raise self.refuse(node, "BB051", "the language does not have in and is", "compare with == or !=")
+            raise self.refuse(node, "BB051", "the language does not have in and is", _instead_of_in(node))
         return COMPARE[type(operator)]
 
     def argument(self, node: ast.expr, depth: int) -> Expr:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import Graph, Level, Node
+from bbsd.expression.graph import Graph, Level, Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import (
@@ -20,6 +20,7 @@ from bbsd.expression.scope import (
     Unusable,
     Value,
 )
+from bbsd.expression.syntax.tree import OneOf
 from bbsd.language.meaning.choices import choices_of
 from bbsd.language.meaning.outside.exchange import size_of_field
 from bbsd.language.outside import EARNED
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 
 Stored = Mapping[str, tuple[Value, ...]]
 """The values of state (one a robot) and of the world (one) at some moment of a step."""
+
+MOST_VALUES = 1_000_000
+"""Whole numbers from 0 on that are told apart in proofs."""
 
 NOT_EARNED = Unusable(
     "BB112",
@@ -64,10 +68,26 @@ class Names:
         return 0 if len(self.robots) == 1 else None
 
     def size(self, node: Node) -> int | None:
-        """Return how many values a node has that reads an observation with a size, from 0 on; None for other nodes."""
-        if node.operation not in ("slot", "outside"):
-            return None
-        return size_of_field(self.spec.environment, node.slot.name)
+        """Return how many values a node has that are 0, 1, and so on; None where that is not known.
+
+        It is of observations with a size, of what has names, and of whole numbers from 0 on that are written or drawn.
+        """
+        match node.operation, node.operands:
+            case (("slot" | "outside"), _):
+                return size_of_field(self.spec.environment, node.slot.name) or self._n_names(node.slot.name)
+            case "literal", _:
+                return _size_up_to(value_of(node))
+            case "draw", (first, last) if node.draw.distribution == "integers" and first.literal:
+                return _size_up_to(value_of(last)) if last.literal and not value_of(first) else None
+            case "select", (_, then, otherwise):
+                sizes = [size for arm in (then, otherwise) if (size := self.size(arm)) is not None]
+                return max(sizes) if len(sizes) == 2 else None
+        return None
+
+    def _n_names(self, name: str) -> int | None:
+        environment = self.spec.environment
+        start = environment.state.get(name) or environment.world.get(name)
+        return len(start.tree.names) if start and isinstance(start.tree, OneOf) else None
 
     @property
     def choices(self) -> Mapping[str, tuple[ValueNames, ...]]:
@@ -114,6 +134,11 @@ class Names:
             starting=starting,
             before=before,
         )
+
+
+def _size_up_to(last: float) -> int | None:
+    """Return the size of 0, 1, ... up to a number; None where it is no such whole number."""
+    return int(last) + 1 if 0 <= last < MOST_VALUES and float(last).is_integer() else None
 
 
 def read_slot(slot: Slot, like: Node, graph: Graph) -> Node:
