@@ -58,11 +58,19 @@ class Loaded:
     def warnings(self) -> tuple[Diagnosis, ...]:
         """What can be used, but probably does not say what was meant, in the order of the text, 50 at most.
 
-        What stands in a file that the spec extends is told of that file alone, and nothing is told of overrides.
+        They are about the spec as it is written, without overrides. What stands in a file that it extends is told of
+        that file alone.
         """
-        found = [*self.noted, *warnings_of(self.meaning)]
-        diagnoses = _diagnoses(found, self.lineage, self.data, read_overrides(self.overrides))
+        if self.overrides:
+            return self._warnings_as_written()
+        diagnoses = _diagnoses([*self.noted, *warnings_of(self.meaning)], self.lineage, self.data, ())
         return tuple(_capped([each for each in diagnoses if each.place.file == self.source.file]))
+
+    def _warnings_as_written(self) -> tuple[Diagnosis, ...]:
+        try:
+            return _loaded(self.lineage, self.meaning.seed, ()).warnings
+        except SpecError:
+            return ()
 
     def __repr__(self) -> str:
         return f"<Loaded {self.source.file}: {self.spec.name}>"

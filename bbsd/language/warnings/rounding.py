@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
+    from bbsd.expression.scope import Path
+    from bbsd.expression.syntax.tree import Span
     from bbsd.language.meaning import Meaning
     from bbsd.language.validation import LocatedMistake
 
@@ -40,15 +42,23 @@ class Exactness(IntEnum):
 def rounded_equalities(meaning: Meaning) -> Iterator[LocatedMistake]:
     """Yield a warning for each comparison by == or != of a constant with a value that rounding keeps from equalling it.
 
-    Not so where the value may be set to that constant, or be clipped there.
+    Not so where the value may be set to that constant, or be clipped there, at one of the moments at which it is
+    compared.
     """
-    pairs = [(path, span, *_sides(meaning, left, right)) for path, span, left, right in meaning.equalities]
-    candidates = [(path, span, node, value) for path, span, node, value in pairs if value is not None]
-    if not candidates:
+    places: dict[tuple[Path, Span], list[tuple[Node, float]]] = {}
+    for path, span, left, right in meaning.equalities:
+        node, value = _sides(meaning, left, right)
+        if value is not None:
+            places.setdefault((path, span), []).append((node, value))
+    if not places:
         return
-    exactness = _exactness(meaning, [node for _, _, node, _ in candidates])
-    for path, span, node, value in candidates:
-        if exactness.get(node.number) is Exactness.ROUNDED and value not in _written(meaning, node):
+    exactness = _exactness(meaning, [node for pairs in places.values() for node, _ in pairs])
+    for (path, span), pairs in places.items():
+        if all(
+            exactness.get(node.number) is Exactness.ROUNDED and value not in _written(meaning, node)
+            for node, value in pairs
+        ):
+            value = pairs[0][1]
             message = f"what is computed here is rounded, so that it is hardly ever exactly {value:g}"
             size = f"abs(... - {value:g})" if value else "abs(...)"
             advice = f"compare with a margin, such as {size} < 0.001, or use <= or >="
