@@ -25,11 +25,13 @@ FIXED = ("constant", "gather")
 def unset_values(meaning: Meaning, uses: Uses) -> Iterator[LocatedMistake]:
     """Yield a warning for each value that matters, that nothing sets, and that is the same at each start.
 
-    What is drawn at the start, or differs from robot to robot, is no constant.
+    What is drawn at the start, or differs from robot to robot, is no constant; nor is what an environment in Python is
+    told, which must be state.
     """
     environment = meaning.spec.environment
     modules = meaning.episode.modules
     targets = {name for module in modules for sets in module.actions.values() for name, _ in sets}
+    targets |= {slot.name for slot in meaning.episode.sent}
     starts: dict[str, dict[Slot, Node]] = {}
     for slot, node in meaning.episode.start.items():
         starts.setdefault(slot.name, {})[slot] = node

@@ -74,3 +74,13 @@ def test_an_index_in_a_key_of_an_action_is_a_use() -> None:
         "behaviors: {stop: {actions: {halt: {'seen[place]': 1}}}}\nreward: {near: max(seen)}"
     )
     assert "nothing uses the constant place" not in unused(part)
+
+
+def test_what_an_environment_in_python_is_always_told_need_not_change() -> None:
+    part = """
+environment: {gymnasium: CartPole-v1, observation: [x, v, angle, turn], action: [push, hard],
+  robots: 1, state: {push: 0, hard: 1, height: null, speed: null}, dynamics: null, sensors: null}
+behaviors: {stop: {inputs: {reached: null, left: angle < 0}, actions: {halt: {push: 1, speed: null}}}}
+reward: {near: earned}
+"""
+    assert check(source(part), warnings=True) == ()
