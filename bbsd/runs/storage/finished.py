@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,8 @@ LOCK = "lock"
 """The file that its writer holds; it is made before all others."""
 SPEC, VISITS = "spec.yaml", "visits.json"
 """The spec as it was when the design began, and how often the cells of its design were asked."""
+PART = re.compile(r"run-[1-9][0-9]*|rival-.+")
+"""Names of folders that are parts of a design's."""
 MOST_NAMED = 3
 """Runs inside a folder that are named, at most."""
 
@@ -70,9 +73,24 @@ def way_on(path: Path) -> str:
 
 
 def _other_choices(path: Path) -> str:
-    """Return what to give instead of a folder that is no run: one of the runs in it, where there are some."""
+    """Return what to give instead of a folder that is no run: the design that it is of, or one of the runs in it."""
+    if PART.fullmatch(path.name) and (path.parent / RUN_FILE).is_file():
+        return f"it is one of the runs of {path.parent}: give that folder, which has the best of their designs"
     inside = sorted(file.parent for file in path.glob(f"*/{ARCHITECTURE}"))
     if not inside:
         return "give the file of a design, or the folder that bbsd design wrote"
+    means = {run: mean for run in inside if (mean := _mean(run)) is not None}
     more = f" and {len(inside) - MOST_NAMED} more" if len(inside) > MOST_NAMED else ""
-    return f"give one of the runs in it: {', '.join(map(str, inside[:MOST_NAMED]))}{more}"
+    runs = f"give one of the runs in it: {', '.join(map(str, inside[:MOST_NAMED]))}{more}"
+    if len(means) < 2:
+        return runs
+    best = max(means, key=lambda run: means[run])
+    return f"{runs}; {best} has the highest mean return, {means[best]:.6g}"
+
+
+def _mean(path: Path) -> float | None:
+    """Return the mean return of a run's design as it is recorded, None where it is not."""
+    result = run_content(path).get("result")
+    returns = result.get("return") if isinstance(result, dict) else None
+    mean = returns.get("mean") if isinstance(returns, dict) else None
+    return float(mean) if isinstance(mean, int | float) and not isinstance(mean, bool) else None

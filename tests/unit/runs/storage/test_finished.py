@@ -67,3 +67,19 @@ def test_the_runs_in_a_folder_are_named(run, tmp_path):
 def test_what_a_run_says_of_itself_may_be_damaged(tmp_path, text):
     (tmp_path / "run.json").write_text(text)
     assert run_content(tmp_path) == {}
+
+
+def test_of_several_runs_the_best_is_named(run, tmp_path):
+    for name, mean in (("seed-0", 3.5), ("seed-1", 4.25), ("seed-2", 1)):
+        run(name, result={"return": {"mean": mean}})
+    with pytest.raises(NoDesign) as raised:
+        design_file(tmp_path)
+    assert raised.value.advice.endswith(f"; {tmp_path / 'seed-1'} has the highest mean return, 4.25")
+
+
+def test_a_part_of_a_design_names_the_design(run):
+    folder = run()
+    (folder / "run-2").mkdir()
+    with pytest.raises(NoDesign) as raised:
+        design_file(folder / "run-2")
+    assert raised.value.advice.startswith(f"it is one of the runs of {folder}: give that folder")
