@@ -51,7 +51,7 @@ def evaluation_plain(evaluation: Evaluation) -> dict[str, Plain]:
 def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
     """Return the result of a design, with its seed and number of runs; runs and rivals only if there are several."""
     plain: dict[str, Plain] = {
-        "architecture": str(designed.architecture),
+        "architecture": None if designed.written is None else str(designed.architecture),
         "return": interval_plain(designed.evaluation.returns),
         "episodes": designed.evaluation.episodes,
         "lifetime": None if designed.lifetime is None else interval_plain(designed.lifetime),

@@ -51,7 +51,7 @@ def evaluation_table(evaluation: Evaluation, *, blocks: bool = True) -> Renderab
 
 def design_table(designed: Designed) -> RenderableType:
     """Return tables of the structure, highest layer first, and of the returns of the design and of random agents."""
-    path = escape(str(designed.architecture))
+    path = escape(designed.name if designed.written is None else str(designed.architecture))
     # People copy the path, so it is never broken into lines.
     where = Text(f"{path}, designed in {duration(designed.seconds)}", no_wrap=True, overflow="ignore")
     parts: list[RenderableType] = [_structure(designed.structure), _returns(designed)]

@@ -42,6 +42,15 @@ def test_a_design_that_is_written_nowhere_is_the_same(run, unwritten):
         _ = unwritten.folder
 
 
+def test_a_design_that_is_written_nowhere_is_shown(unwritten):
+    from bbsd.report.notebook.html import html_of
+    from bbsd.report.plain import design_plain
+    from bbsd.report.tables import design_table
+
+    assert "thermostat, designed in" in html_of(design_table(unwritten))
+    assert design_plain(unwritten, 0, 1)["architecture"] is None
+
+
 def test_nothing_is_left_of_a_design_that_is_written_nowhere(tmp_path, monkeypatch):
     for folder in ("here", "temporary"):
         (tmp_path / folder).mkdir()
