@@ -75,7 +75,9 @@ def way_on(path: Path) -> str:
 def _other_choices(path: Path) -> str:
     """Return what to give instead of a folder that is no run: the design that it is of, or one of the runs in it."""
     if PART.fullmatch(path.name) and (path.parent / RUN_FILE).is_file():
-        return f"it is one of the runs of {path.parent}: give that folder, which has the best of their designs"
+        return (
+            f"it is one of the runs of {path.parent}: give that folder, which has the best of their designs"
+        )
     inside = sorted(file.parent for file in path.glob(f"*/{ARCHITECTURE}"))
     if not inside:
         return "give the file of a design, or the folder that bbsd design wrote"

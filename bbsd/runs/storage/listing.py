@@ -64,10 +64,10 @@ class Listed:
     high: float
     best: float
     """The best mean return that records have so far; NaN where there is none."""
-    ended: tuple[dict[str, Any], ...]
-    """What is recorded of runs that ended before their budget was spent."""
     written: float
     """When a file of the run was last written, in seconds since 1970; 0 where there is none."""
+    ended: tuple[dict[str, Any], ...] = ()
+    """What is recorded of runs that ended before their budget was spent."""
 
     def __repr__(self) -> str:
         return f"<Listed {self.folder}: {self.state}>"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bbsd.api import Designed
+from bbsd.architecture.visits import Visits
 from bbsd.evaluation import Decisions, Evaluation, Interval, Trace
 from bbsd.evaluation.decisions import Layer
 from bbsd.expression.node_data import Slot
@@ -30,11 +31,14 @@ def evaluation():
 @pytest.fixture
 def designed(evaluation):
     return Designed(
-        Path("runs/lifting-seed0/architecture.yaml"),
-        Path("runs/lifting-seed0"),
-        "paper",
-        ("stop_at_goal", "push_more"),
-        evaluation,
+        name="lifting",
+        text="bbsd: 1\n",
+        written=Path("runs/lifting-seed0"),
+        metrics=(),
+        visits=Visits(0, 0, (), ()),
+        method="paper",
+        structure=("stop_at_goal", "push_more"),
+        evaluation=evaluation,
         lifetime=Interval(299.2, 20.0, 296.2, 302.2, 200),
         random=Interval(-612.3, 300.0, -642.5, -582.1, 1000),
         seconds=41.2,

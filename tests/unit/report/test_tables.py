@@ -99,9 +99,9 @@ def test_tables_keep_to_the_width_of_the_terminal(evaluation, designed, width):
 
 
 def test_texts_are_no_markup_and_do_not_steer_the_terminal(designed):
-    strange = replace(designed, architecture=Path("[bold]a[/bold]\x1b[31m.yaml"), structure=("[red]x",))
+    strange = replace(designed, written=Path("[bold]a[/bold]\x1b[31m"), structure=("[red]x",))
     text = printed(design_table(strange))
-    assert "[bold]a[/bold]\\x1b[31m.yaml" in text
+    assert "[bold]a[/bold]\\x1b[31m/architecture.yaml" in text
     assert "[red]x" in text
 
 
