@@ -18,6 +18,7 @@ from bbsd.cli.fmt import fmt
 from bbsd.cli.new import new
 from bbsd.cli.schema import schema
 from bbsd.cli.spaces import spaces
+from bbsd.cli.terminal.guidance import Commands
 from bbsd.cli.terminal.interrupts import stoppable
 from bbsd.cli.terminal.mistakes import show_mistake
 from bbsd.cli.terminal.output import say
@@ -39,6 +40,7 @@ NO = 1
 
 app = typer.Typer(
     name="bbsd",
+    cls=Commands,
     no_args_is_help=True,
     rich_markup_mode=None,  # with it, every --help would import rich: 0.28 s instead of 0.10 s
     pretty_exceptions_enable=False,
@@ -63,6 +65,12 @@ app.command()(stoppable(config))
 app.command("compile")(stoppable(compile_))
 app.command()(stoppable(schema))
 app.command()(stoppable(doctor))
+
+
+@app.command()
+def version() -> None:
+    """Show the version."""
+    typer.echo(f"bbsd {__version__}")
 
 
 def _show_version(wanted: bool) -> None:

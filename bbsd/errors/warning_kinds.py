@@ -135,4 +135,14 @@ WARNING_KINDS = (
         example="behaviors:\n  stop:\n    inputs:\n      reached: height == 3",
         mend="behaviors:\n  stop:\n    inputs:\n      reached: abs(height - 3) < 0.01",
     ),
+    _warning(
+        code="BB215",
+        title="a behavior in no layer",
+        explanation=(
+            "A behavior that the structure does not list is never in control. Where it is left out on purpose, "
+            "design.layers says so: how many layers there are."
+        ),
+        example="behaviors:\n  hurry:\n    actions:\n      go: {speed: 1}\nstructure: [stop]",
+        mend="behaviors:\n  hurry:\n    actions:\n      go: {speed: 1}\nstructure: [stop, hurry]",
+    ),
 )

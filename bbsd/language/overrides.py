@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from bbsd.errors import Diagnosis, Place, SpecError, did_you_mean
-from bbsd.language.keys import fields_at
+from bbsd.errors import Correction, Diagnosis, Edit, Place, SpecError, did_you_mean
+from bbsd.language.keys import blocks_with, fields_at
 from bbsd.language.validation import child, has, named
 from bbsd.text import Source, read
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from bbsd.text import Data, Document
 
 FILE = "--set"
+NAMED = ("state", "world", "sensors", "definitions")
+"""Blocks of the environment with names of the spec's own."""
 SEGMENT = re.compile(r"\.?(?P<key>[^.\[\]=]+)|\[(?P<index>\d{1,6})\]")
 ARGUMENT = re.compile(r"(?P<path>[^.\[\]=]+(?:\.[^.\[\]=]+|\[\d{1,6}\])*)=(?P<value>.*)", re.DOTALL)
 
@@ -121,6 +123,15 @@ def _is_known(data: Data, path: Path) -> bool:
     return has(data, path[-1]) or (isinstance(data, dict) and path[-1] in (fields_at(path[:-1]) or {}))
 
 
+def paths_with(key: str, data: Data) -> list[str]:
+    """Return the paths of a key in a spec's blocks: of the language's own, and of names that the spec gives."""
+    own = [f"{block}.{key}" for block in blocks_with(key) if not block.startswith(("a ", "the "))]
+    environment = child(data, "environment")
+    blocks = [("constants", child(data, "constants")), ("reward", child(data, "reward"))]
+    blocks += [(f"environment.{name}", child(environment, name)) for name in NAMED]
+    return own or [f"{path}.{key}" for path, block in blocks if isinstance(block, dict) and key in block]
+
+
 def _nothing_there(data: Data, override: Override, depth: int) -> Diagnosis:
     segment, parent = override.path[depth], override.path[:depth]
     place = Place(FILE, override.line, override.columns[depth], len(str(segment)))
@@ -130,5 +141,10 @@ def _nothing_there(data: Data, override: Override, depth: int) -> Diagnosis:
         return Diagnosis(
             "BB028", f"there is no item [{segment}]{where}", place, f"it has {count}, counted from 0"
         )
+    if not parent and (paths := paths_with(segment, data)):
+        hint = f'; did you mean "{paths[0]}"?' if len(paths) == 1 else f"; it is in {' and in '.join(paths)}"
+        edit = Edit(place.line, place.column, place.line, place.column + place.length, paths[0])
+        correction = Correction((edit,)) if len(paths) == 1 else None
+        return Diagnosis("BB028", f'there is no "{segment}"{hint}', place, "give the whole path", correction)
     keys = [*(data if isinstance(data, dict) else ()), *(fields_at(parent) or ())]
     return Diagnosis("BB028", f'there is no "{segment}"{where}{did_you_mean(segment, keys)}', place)

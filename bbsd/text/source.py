@@ -6,16 +6,18 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bbsd.errors import Diagnosis, Edit, Place, SpecError
+from bbsd.errors import Diagnosis, Edit, Place, SpecError, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 MAX_BYTES = 1_000_000  # the specs that people write have a few kilobytes
 MOST_NAMED = 3
+MOST_SEARCHED = 1000  # files
 BYTE_ORDER_MARK = "\ufeff"
 LINE_BREAK = re.compile(r"\r\n|\r|\n")
 
@@ -114,7 +116,7 @@ def _content(file: str) -> bytes:
         with Path(file).open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
-        raise _refused(file, "BB001", "there is no such file") from None
+        raise _refused(file, "BB001", _missing_text(Path(file))) from None
     except IsADirectoryError:
         raise _refused(file, "BB001", _folder_text(Path(file))) from None
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
@@ -122,6 +124,30 @@ def _content(file: str) -> bytes:
     if len(content) > MAX_BYTES:
         raise _refused(file, "BB002", "the file has more than 1 MB, which no spec needs")
     return content
+
+
+def _missing_text(file: Path) -> str:
+    """Return what is wrong with the name of a file that is not there, and which one may be meant."""
+    message = "there is no such file"
+    if not file.parent.is_dir():
+        message += f", and no folder {file.parent}"
+    near = _near_file(file)
+    return f'{message}; did you mean "{near.as_posix()}"?' if near else message
+
+
+def _near_file(file: Path) -> Path | None:
+    """Return a spec with nearly that name in the same folder, or with that name in a folder beside or below."""
+    try:
+        folder = file.parent if file.parent.is_dir() else Path()
+        here = {path.name: path for path in islice(folder.glob("*.y*ml"), MOST_SEARCHED)}
+        below = {path.name: path for path in islice(folder.glob("*/*.y*ml"), MOST_SEARCHED)}
+    except (OSError, ValueError):  # ValueError: a null character in the name
+        return None
+    name = file.name if file.suffix else f"{file.name}.yaml"
+    for found in (here, below):
+        if near := name if name in found else nearest(name, found):
+            return found[near]
+    return None
 
 
 def _folder_text(folder: Path) -> str:

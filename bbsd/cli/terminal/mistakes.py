@@ -2,6 +2,7 @@
 
 import sys
 
+from bbsd.cli.terminal.guidance import with_file
 from bbsd.cli.terminal.output import has_color, say
 from bbsd.errors import SpecError, UsageError, render_text
 
@@ -16,7 +17,7 @@ def show_mistake(error: Exception) -> int:
     elif isinstance(error, OSError):
         say(f"bbsd: {_os_text(error)}")
     elif isinstance(error, UsageError):
-        say("\n      ".join([f"bbsd: {error}", *([error.advice] if error.advice else [])]))
+        say("\n      ".join([f"bbsd: {error}", *([with_file(error.advice)] if error.advice else [])]))
     else:
         raise error
     return MISTAKE

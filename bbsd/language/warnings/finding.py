@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.language.warnings.actions import useless_actions
 from bbsd.language.warnings.conditions import vain_conditions
 from bbsd.language.warnings.influence import uninfluenced_terms
+from bbsd.language.warnings.left_out import left_out_behaviors
 from bbsd.language.warnings.proving import Prover
 from bbsd.language.warnings.reach import unreached_cells
 from bbsd.language.warnings.robots import robots_alike
@@ -30,6 +31,7 @@ def warnings_of(meaning: Meaning) -> Iterator[LocatedMistake]:
     yield from unset_values(meaning, uses)
     yield from useless_actions(meaning)
     yield from undecided_cells(meaning)
+    yield from left_out_behaviors(meaning)
     yield from robots_alike(meaning)
     yield from uninfluenced_terms(meaning)
     yield from vain_conditions(meaning, prover)

@@ -1,0 +1,151 @@
+"""Command lines that are not understood: what is probably meant, and the command as it should be."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+import typer
+from typer.core import TyperGroup
+
+from bbsd.errors import inert, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+MEANT = {
+    "run": "design",
+    "train": "design",
+    "learn": "design",
+    "optimize": "design",
+    "optimise": "design",
+    "search": "design",
+    "solve": "design",
+    "start": "design",
+    "test": "evaluate",
+    "simulate": "evaluate",
+    "eval": "evaluate",
+    "measure": "evaluate",
+    "validate": "check",
+    "lint": "check",
+    "fix": "check --fix",
+    "format": "fmt",
+    "init": "new",
+    "create": "new",
+    "show": "explain",
+    "plot": "report",
+}
+"""What commands are called elsewhere, and here."""
+NO_INTEGER = re.compile(r"Input should be a valid integer")
+NO_CHOICE = re.compile(r"(?:Value error, )?'(?P<given>.*)' is not one of (?P<choices>'.*')\.?$")
+EXTRA = re.compile(r"Got unexpected extra argument(?:s|\(s\))? \((?P<words>=.*)\)$")
+WORDS = "bbsd.words"
+NotUnderstood = cast("type[Exception]", typer.BadParameter.__mro__[1])
+"""Typer's error of a command line, which it does not export."""
+
+
+class Commands(TyperGroup):
+    """The commands; a command line that is not understood is answered by the one that is probably meant."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:  # noqa: ANN401 - Typer's own types
+        """Return the command of a command line; raise Typer's usage error with what is probably meant."""
+        if args and args[0] not in self.commands and not args[0].startswith("-"):
+            ctx.fail(self._meant(args))
+        ctx.meta[WORDS] = [*args]
+        return super().resolve_command(ctx, args)
+
+    def invoke(self, ctx: Any) -> Any:  # noqa: ANN401 - Typer's own types
+        """Run the command; usage errors get the command line that is probably meant."""
+        try:
+            return super().invoke(ctx)
+        except NotUnderstood as error:
+            _explain(error, ctx.meta.get(WORDS, []), self.commands)
+            raise
+
+    def _meant(self, args: Sequence[str]) -> str:
+        """Return what is wrong with a command line that begins with no command."""
+        word = args[0]
+        if meant := MEANT.get(word.lower()):
+            also = " or evaluate" if meant == "design" else ""
+            return f'there is no command "{word}"; {meant}{also} is meant: {_command(meant, *args[1:])}'
+        if Path(word).suffix in (".yaml", ".yml") or Path(word).exists():
+            commands = f"{_command('check', *args)} or {_command('design', *args)}"
+            return f"a command is missing before {shown(word)}: write {commands}"
+        near = nearest(word, self.commands)
+        hint = f"; did you mean {_command(near, *args[1:])}?" if near else ""
+        return f'there is no command "{shown(word)}"{hint}'
+
+
+def _command(*words: str) -> str:
+    """Return a command line as it is to be written."""
+    first, *others = words
+    return shown(f"bbsd {first} {shlex.join(others)}".strip())
+
+
+def shown(text: str) -> str:
+    """Return a text that a user gave so that it steers nothing."""
+    return inert(text.replace("\n", " "), begins_line=False)
+
+
+def _explain(error: Any, words: list[str], commands: Any) -> None:  # noqa: ANN401 - Typer's own types
+    """Say in an error's message what is probably meant."""
+    option = getattr(error, "option_name", None)
+    message = str(error.message)
+    if option is not None and option in words:
+        error.message = _unknown_option(option, words, commands)
+        error.possibilities = None
+    elif match := EXTRA.search(message):
+        error.message = _spaces(match["words"].split(), words)
+    elif NO_INTEGER.search(message):
+        error.message = "it must be a whole number"
+    elif match := NO_CHOICE.search(message):
+        choices = [choice.strip("' ") for choice in match["choices"].split(",")]
+        given = match["given"]
+        near = next((each for each in choices if given.startswith(each)), "") or nearest(given, choices)
+        changed = [near if word == given else word for word in words]
+        hint = f"; did you mean {_command(*changed)}?" if near else ""
+        error.message = f'"{shown(given)}" is none of {", ".join(choices)}{hint}'
+
+
+def _unknown_option(option: str, words: list[str], commands: Any) -> str:  # noqa: ANN401 - Typer's own types
+    from bbsd.language.keys import blocks_with
+
+    key = option.lstrip("-").replace("-", "_")
+    blocks = [block for block in blocks_with(key) if not block.startswith(("a ", "the "))]
+    if len(blocks) == 1:
+        at = words.index(option)
+        value = words[at + 1] if at + 1 < len(words) and not words[at + 1].startswith("-") else "..."
+        behind = words[at + 2 :] if value != "..." else words[at + 1 :]
+        path = f"{blocks[0]}.{key}"
+        command = _command(*words[:at], *behind, "--set", f"{path}={value}")
+        return f"there is no option {option}; {key} is set by --set {path}=...: {command}"
+    command = commands.get(words[0])
+    known = [name for parameter in command.params for name in parameter.opts] if command else []
+    if near := nearest(option, [name for name in known if name.startswith("--")]):
+        return f"there is no option {option}; did you mean {near}?"
+    others = [
+        name for name, each in commands.items() if any(option in parameter.opts for parameter in each.params)
+    ]
+    where = f"; it is one of bbsd {', bbsd '.join(others[:3])}" if others else ""
+    return f"there is no option {shown(option)} of bbsd {words[0]}{where}"
+
+
+def _spaces(extra: list[str], words: list[str]) -> str:
+    """Return what is wrong with `--set PATH = VALUE`."""
+    at = words.index("=") if "=" in words else 0
+    if not 0 < at < len(words) - 1:
+        return f"there is more than the command takes: {shown(' '.join(extra))}"
+    joined = [*words[: at - 1], f"{words[at - 1]}={words[at + 1]}", *words[at + 2 :]]
+    return f"no spaces stand around the = of --set: {_command(*joined)}"
+
+
+def with_file(advice: str) -> str:
+    """Return an advice in which commands have the file that this command was given."""
+    files = [word for word in sys.argv[2:] if Path(word).suffix in (".yaml", ".yml")]
+    if len(files) != 1:
+        return advice
+    file = shlex.quote(shown(files[0]))
+    return re.sub(r"bbsd (design|evaluate)(?=[;, ]|$)(?! [\w.<])", rf"bbsd \1 {file}", advice)

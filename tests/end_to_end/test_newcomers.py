@@ -1,0 +1,57 @@
+"""A hundred mistakes that a newcomer wrote down before any message was looked at, and what is said of each."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from bbsd.language.fixing import fixed
+from bbsd.language.loading import check
+from bbsd.text import Source
+from tests.newcomers import FOLDER, ROOT, Told, is_at_line, names_cause, shows_right, told_of
+
+ITEMS = yaml.safe_load((FOLDER / "expected.yaml").read_text(encoding="utf-8"))
+FILES = [FOLDER / item["file"] for item in ITEMS if "file" in item]
+WANTED = 95
+
+
+@pytest.fixture(scope="module")
+def told() -> list[Told]:
+    return [told_of(item, ROOT) for item in ITEMS]
+
+
+def name_of(item: dict[str, object]) -> str:
+    return str(item.get("file") or item["command"])
+
+
+def test_there_are_a_hundred() -> None:
+    assert len(ITEMS) == 100
+    assert sorted(path.name for path in FILES) == sorted(path.name for path in FOLDER.glob("0*.yaml"))
+
+
+def test_the_cause_is_named_at_its_line_and_the_right_line_is_shown(told: list[Told]) -> None:
+    checks = {"cause": names_cause, "line": is_at_line, "right line": shows_right}
+    wanting = {
+        name_of(item): missing
+        for item, said in zip(ITEMS, told, strict=True)
+        if (missing := [what for what, holds in checks.items() if not holds(item, said)])
+    }
+    assert len(ITEMS) - len(wanting) >= WANTED, wanting
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_file_has_one_mistake_that_is_told(path: Path) -> None:
+    assert len(check(Source.read(path))) <= 1
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_what_is_fixed_is_right_and_stays(path: Path) -> None:
+    source = Source.read(path)
+    mistakes = check(source)
+    result = fixed(source)
+    assert fixed(result.source).source == result.source
+    if mistakes and mistakes[0].correction is not None and mistakes[0].correction.is_certain:
+        assert check(result.source) == ()
+        assert result.made
+    else:
+        assert result.source == source
