@@ -77,7 +77,7 @@ class Exchange:
         """The names of what is observed of a robot, a name for each number."""
         if self.observe == "cells":
             return tuple(self._space.dimensions)
-        return tuple(slot.text(1) for slot in self.slots)
+        return tuple(slot.label(1) for slot in self.slots)
 
     @property
     def sizes(self) -> tuple[int, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 from bbsd.agent.inputs import BadInput, complaint
 from bbsd.agent.writing import KEY, STEP, decision_lines, outcome_names
 from bbsd.expression.kinds import Kind
-from bbsd.expression.node_data import Variable, variable_text
+from bbsd.expression.nesting import by_name
 from bbsd.kernel import functions, streams
 from bbsd.kernel.keys import keys
 from bbsd.kernel.modules import load_kernel
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from bbsd.agent.inputs import AgentInput
     from bbsd.agent.program import Program
+    from bbsd.expression.node_data import Variable
 
     Floats = npt.NDArray[np.float64]
     Integers = npt.NDArray[np.int64]
@@ -36,7 +37,8 @@ STORED = {Kind.TRUTH: "1.0 if {} else 0.0", Kind.CELL: "float({})"}
 class Acts(NamedTuple):
     """What many robots do: the number of each one's action, and the values of state that it sets, by name.
 
-    `numbers` is (n,), 0 where nobody controls; `sets[name]` is (n,), truths as 0 and 1, NaN where nothing is set.
+    `numbers` is (n,), 0 where nobody controls; `sets[name]` is (n,), of a list (n, length, ...), truths as 0 and 1, NaN
+    where nothing is set.
     """
 
     numbers: Integers
@@ -49,7 +51,7 @@ class Many:
     def __init__(self, program: Program, start: Sequence[float], key: int, n: int) -> None:
         self._program = program
         self._many = _compiled(program)
-        self._names = [*map(variable_text, variables_set(program))]
+        self._variables = variables_set(program)
         self._start = np.array(start, np.float64).reshape(-1, 1)
         self._keys_of_lanes = keys(key, 0, n)
         self._episodes = np.full(n, -1, np.int64)
@@ -81,10 +83,10 @@ class Many:
 
     def act(self, rows: Floats) -> Acts:
         """Return what all robots do, given their inputs (n_values, n), and keep what each has to."""
-        numbers, sets = np.zeros(self.n, np.int64), np.full((len(self._names), self.n), np.nan)
+        numbers, sets = np.zeros(self.n, np.int64), np.full((len(self._variables), self.n), np.nan)
         self._steps += 1
         self._many(np.ascontiguousarray(rows), self._kept, self._steps, self._keys, numbers, sets)
-        return Acts(numbers, dict(zip(self._names, sets, strict=True)))
+        return Acts(numbers, by_name(self._variables, [*sets], lambda rows: np.stack(rows, axis=1)))
 
 
 def _compiled(program: Program) -> Callable[..., None]:

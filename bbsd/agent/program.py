@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bbsd.agent.inputs import complaint
 from bbsd.agent.writing import KEY, STEP, Body, decision_lines, outcome_names
-from bbsd.expression.node_data import variable_text
+from bbsd.expression.nesting import by_name
 from bbsd.kernel import functions, streams
 from bbsd.kernel.primitives import INFINITY, NAN
 from bbsd.language.meaning.tables.labels import Numbers
@@ -23,16 +23,21 @@ if TYPE_CHECKING:
 Scalar = float | bool | int
 Kept = tuple[Scalar, ...]
 """What an agent keeps from one step to the next."""
+SetValue: TypeAlias = "float | bool | str | list[SetValue]"
 ACT = "Act"
 
 
 class Act(NamedTuple):
-    """What an agent does: an action by its number (0, and no behavior, where nobody controls), and what it sets."""
+    """What an agent does: an action by its number (0, and no behavior, where nobody controls), and what it sets.
+
+    `sets` has the new values of state by name: of a list all of it, as nested lists; but single elements, as
+    `waiting[2]`, where an action can set only these.
+    """
 
     number: int
     behavior: str | None
     action: str | None
-    sets: dict[str, float | bool | str]
+    sets: dict[str, SetValue]
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,10 +153,9 @@ def _outcome(program: Program, number: int, used: set[str]) -> list[str]:
             program.controller.actions[number - 1].behavior,
             program.controller.actions[number - 1].name,
         )
-    sets = ", ".join(
-        f"{variable_text(variable)!r}: {_as_set(variable, text, program)}"
-        for variable, text in outcome.sets.items()
-    )
+    texts = [_as_set(variable, text, program) for variable, text in outcome.sets.items()]
+    named = by_name([*outcome.sets], texts, lambda items: f"[{', '.join(items)}]")
+    sets = ", ".join(f"{name!r}: {text}" for name, text in named.items())
     kept = "".join(f"{text}, " for text in outcome.kept)
     body.say(f"return {ACT}({number}, {behavior!r}, {action!r}, {{{sets}}}), ({kept})")
     return [f"def outcome_{number}({program.arguments}):", *body.lines]

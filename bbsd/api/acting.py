@@ -8,11 +8,12 @@ import numpy as np
 
 from bbsd.agent.inputs import AgentInput, BadInput
 from bbsd.agent.making import Design, design_of, program_of
-from bbsd.agent.program import Act, plain_functions
+from bbsd.agent.program import Act, SetValue, plain_functions
 from bbsd.api.given.arguments import MOST_SEED, Assignments, checked, instance, optional, whole
 from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.architecture import architecture_of
 from bbsd.architecture.needs import plain_name
+from bbsd.expression.nesting import by_name
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 
@@ -146,15 +147,13 @@ class Agent:
         return tuple((each.behavior, each.name) for each in self._program.controller.actions)
 
     @property
-    def memory(self) -> dict[str, float | bool | str]:
-        """What the agent keeps at the moment: state by name, and what was before, as `before x`."""
-        named = self._program.named
-        return {
-            slot.text(1): named[plain_name(slot.name)][int(value)]
-            if plain_name(slot.name) in named
-            else value
-            for slot, value in zip(self._program.kept, self._kept, strict=True)
-        }
+    def memory(self) -> dict[str, SetValue]:
+        """What the agent keeps at the moment: state by name, of lists nested lists; what was before, as `before x`."""
+        kept, named = list[SetValue](), self._program.named
+        for slot, value in zip(self._program.kept, self._kept, strict=True):
+            names = named.get(plain_name(slot.name))
+            kept.append(value if names is None else names[int(value)])
+        return by_name([slot.variable for slot in self._program.kept], kept, lambda values: values)
 
     @checked(key=optional(whole(0, MOST_SEED)))
     def reset(self, *, key: int | None = None) -> None:

@@ -249,7 +249,7 @@ def _means_by_name(
         for name, value in zip(problem.meaning.episode.reward, terms, strict=True)
     }
     share = {name: float(value) / (steps_taken * robots) for name, value in zip(who, control, strict=True)}
-    places = [*(slot.text(robots) for slot in problem.checked_slots), DECIDING]
+    places = [*(slot.label(robots) for slot in problem.checked_slots), DECIDING]
     counts = {name: int(value) for name, value in zip(places, not_finite, strict=True) if value}
     in_control = dict(zip(who, control, strict=True))
     expected = {

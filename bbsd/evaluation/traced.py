@@ -64,7 +64,7 @@ class Trace:
 
         Raises NoPandas where pandas is not installed.
         """
-        columns = {slot.text(self.robots): values for slot, values in trace_columns(self)}
+        columns = {slot.label(self.robots): values for slot, values in trace_columns(self)}
         return frame({"step": range(len(self.steps) + 1), **columns}, index="step")
 
     def __repr__(self) -> str:

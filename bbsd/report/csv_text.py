@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import inert_cell
 from bbsd.evaluation.traced import trace_columns
-from bbsd.expression.node_data import Slot
+from bbsd.expression.node_data import variable_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -51,7 +51,7 @@ def returns_text(each: EachEpisode) -> str:
 def _wide(trace: Trace) -> Iterator[list[object]]:
     """Yield the columns' names, which end in the robot's index where there are several, then a line for each step."""
     columns = list(trace_columns(trace))
-    yield ["step", *(slot.text(trace.robots) for slot, _ in columns)]
+    yield ["step", *(slot.label(trace.robots) for slot, _ in columns)]
     for step, row in enumerate(zip(*(values for _, values in columns), strict=True)):
         yield [step, *map(_text, row)]
 
@@ -64,7 +64,7 @@ def _long(trace: Trace) -> Iterator[list[object]]:
         for robot, (name, place), values in columns:
             if values[step] != "":
                 whose = "" if robot is None else robot
-                yield [step, whose, Slot(name, None, place).text(1), _text(values[step])]
+                yield [step, whose, variable_text((name, place)), _text(values[step])]
 
 
 def _text(value: Value) -> object:

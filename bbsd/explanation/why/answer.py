@@ -19,10 +19,9 @@ if TYPE_CHECKING:
 
     from bbsd.architecture import Architecture
     from bbsd.evaluation.decisions import Layer
-    from bbsd.evaluation.traced import Value
     from bbsd.explanation.why.otherwise import Otherwise
     from bbsd.explanation.why.redesign import Deciding
-    from bbsd.explanation.why.situation import Situation
+    from bbsd.explanation.why.situation import Listed, Situation
     from bbsd.language.meaning import Meaning
 
 
@@ -61,7 +60,7 @@ class Answer:
     action: str | None
     layers: tuple[LayerAnswer, ...]
     """Highest first."""
-    values: Mapping[str, Value | tuple[Value, ...]]
+    values: Mapping[str, Listed]
     """The robot's state and sensors, and the world, before the step."""
     otherwise: tuple[Otherwise, ...]
 
@@ -75,7 +74,7 @@ class Answer:
         return {**asdict(self), "values": values}
 
 
-def _plain(value: Value | tuple[Value, ...]) -> Any:  # noqa: ANN401 - plain data
+def _plain(value: Listed) -> Any:  # noqa: ANN401 - plain data
     if isinstance(value, tuple):
         return [*map(_plain, value)]
     return None if isinstance(value, float) and not isfinite(value) else value

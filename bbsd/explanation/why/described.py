@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from bbsd.errors import UsageError, did_you_mean
-from bbsd.explanation.why.situation import Situation, require_robot, values_of_robot
+from bbsd.explanation.why.situation import Listed, Situation, require_robot, values_of_robot
 from bbsd.expression.graph import evaluate, needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from bbsd.evaluation.traced import Value
     from bbsd.expression.graph import Node
+    from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
 
@@ -65,9 +66,7 @@ def _unknown(meaning: Meaning, name: str, known: Sequence[str]) -> str:
     return f"{name} is no state, world or sensor{did_you_mean(name, known)}"
 
 
-def _situation(
-    modules: Sequence[Module], values: Sequence[Any], shown: Mapping[str, Value | tuple[Value, ...]]
-) -> Situation:
+def _situation(modules: Sequence[Module], values: Sequence[Any], shown: Mapping[str, Listed]) -> Situation:
     """Read from the values whether each behavior is excited, and the index of its cell: row-major over the inputs."""
     excited, cells, left = list[bool](), list[int](), [*values]
     for module in modules:
@@ -104,18 +103,14 @@ def _stored(meaning: Meaning, given: Mapping[str, Given]) -> dict[Slot, float]:
             if not _is_number(value):
                 raise BadSituation(f"step: {value!r} is no number")
             continue
-        slots = [slot for slot in episode.after if slot.name == name]
-        if slots[0].robot is None:
-            stored[slots[0]] = _number(meaning, slots[0], value)
-            continue
-        places = [slot.place for slot in slots if slot.robot == 0]
-        for robot, own in enumerate(_by_robot(name, value, robots, n_dimensions=len(places[0]))):
-            for place in places:
-                stored[Slot(name, robot, place)] = _number(
-                    meaning, Slot(name, robot, place), _item(name, own, place)
-                )
-            if _size(own) != len(places):
-                raise BadSituation(f"{name}: {own!r} must have {len(places)} values")
+        slots = [slot for slot in episode.after if slot.name == name and not slot.robot]
+        depth, is_own = len(slots[0].place), slots[0].robot is not None
+        for robot, own in enumerate(_by_robot(name, value, robots, depth) if is_own else [value]):
+            for each in slots:
+                slot = each._replace(robot=robot) if is_own else each
+                stored[slot] = _number(meaning, slot, _item(name, own, slot.place))
+            if depth and _size(own) != len(slots):
+                raise BadSituation(f"{name}: {own!r} must have {len(slots)} values")
     return stored
 
 

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from bbsd.errors import UsageError
+from bbsd.expression.nesting import by_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from bbsd.evaluation import Trace
     from bbsd.evaluation.traced import Value
-    from bbsd.expression.node_data import Slot
+    from bbsd.expression.node_data import Slot, Variable
+
+Listed: TypeAlias = "Value | tuple[Listed, ...]"
+"""A value, or those of a list, which may hold lists."""
 
 
 class NoSuchMoment(UsageError):
@@ -26,7 +30,7 @@ class Situation:
     excited: tuple[bool, ...]
     cells: tuple[int, ...]
     """Each behavior's cell in its own table, also where it is not excited."""
-    values: Mapping[str, Value | tuple[Value, ...]]
+    values: Mapping[str, Listed]
     """The robot's own state, its sensors, and the world, by name; those that are known."""
 
 
@@ -54,11 +58,9 @@ def require_robot(robot: int, robots: int) -> None:
         raise NoSuchMoment(f"there is no robot {robot}: {known}")
 
 
-def values_of_robot(stored: Mapping[Slot, Value], robot: int) -> dict[str, Value | tuple[Value, ...]]:
-    """Return the values that are a robot's own or the world's, by name; those of a list together."""
-    by_name: dict[str, list[Value]] = {}
-    lists = {slot.name for slot in stored if slot.place}
-    for slot, value in stored.items():
-        if slot.robot in (None, robot):
-            by_name.setdefault(slot.name, []).append(value)
-    return {name: tuple(values) if name in lists else values[0] for name, values in by_name.items()}
+def values_of_robot(stored: Mapping[Slot, Value], robot: int) -> dict[str, Listed]:
+    """Return the values that are a robot's own or the world's, by name; those of lists as nested tuples."""
+    own: dict[Variable, Listed] = {
+        slot.variable: value for slot, value in stored.items() if slot.robot in (None, robot)
+    }
+    return by_name([*own], [*own.values()], tuple)

@@ -10,14 +10,17 @@ from bbsd.explanation.conditions import join_words
 from bbsd.explanation.why.aim import NOBODY
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from bbsd.evaluation.traced import Value
     from bbsd.explanation.why.answer import Answer, LayerAnswer
     from bbsd.explanation.why.otherwise import DesignChange, Otherwise, Way
+    from bbsd.explanation.why.situation import Listed
 
 LINE_WIDTH = 80
 NAME_WIDTH = 24
+MOST_OF_A_LIST, FIRST_OF_A_LIST = 12, 4
+"""Values of a list that are shown; of a longer one only the first."""
 """The widest column of names; a longer name stands on a line of its own."""
 MOST_SHOWN = 6
 """The number of ways that are listed, at most."""
@@ -84,12 +87,35 @@ def _values(answer: Answer) -> list[str]:
     return _wrapped(f"{when}: {shown}", "", "  ")
 
 
-def _value_text(value: Value | tuple[Value, ...]) -> str:
+def _value_text(value: Listed) -> str:
     if isinstance(value, tuple):
-        return f"[{', '.join(map(_value_text, value))}]"
+        return _list_text(value)
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+def _list_text(values: tuple[Listed, ...]) -> str:
+    """Return a list, of a long one the first values and how many there are, of truths how many are true."""
+    if (count := _count(values)) <= MOST_OF_A_LIST:
+        return f"[{', '.join(map(_value_text, values))}]"
+    truths = [each for each in _all(values) if isinstance(each, bool)]
+    if len(truths) == count:
+        return f"{sum(truths)} of {count} true"
+    first = [_value_text(each) for each in _all(values)][:FIRST_OF_A_LIST]
+    return f"[{', '.join(first)}, ... {count} in all]"
+
+
+def _count(values: Listed) -> int:
+    return len([*_all(values)])
+
+
+def _all(values: Listed) -> Iterator[Value]:
+    if isinstance(values, tuple):
+        for each in values:
+            yield from _all(each)
+    else:
+        yield values
 
 
 def _otherwise(found: Otherwise) -> list[str]:

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 PANEL_HEIGHT, STRIP = 1.35, 0.1
 """Heights in inches: of the panel of a value, and of a strip in it if there are many."""
+MOST_STRIPS = 64
+"""Strips of a panel that have their full height, as many as a team has robots; more are thinner."""
 AROUND_PANEL = 0.45
 """The part of a panel's height that its title and ticks take, in inches."""
 NOTE_LINE = 0.16
@@ -85,7 +87,7 @@ def draw_panels(
 def value_height(shown: ValuePanel, *, in_gray: bool) -> float:
     """Return the height of the panel of a value in inches."""
     if is_strip(shown, in_gray=in_gray):
-        return max(PANEL_HEIGHT, AROUND_PANEL + STRIP * len(shown.curves))
+        return max(PANEL_HEIGHT, AROUND_PANEL + STRIP * min(len(shown.curves), MOST_STRIPS))
     return PANEL_HEIGHT + 0.12 * max(0, len(shown.cells) - 4)
 
 

@@ -86,7 +86,7 @@ def _trace(trace: Trace) -> str:
     rows = [
         (step, *values) for step, values in enumerate(zip(*(values for _, values in columns), strict=True))
     ]
-    headings = ["step", *(slot.text(trace.robots) for slot, _ in columns)]
+    headings = ["step", *(slot.label(trace.robots) for slot, _ in columns)]
     if len(rows) > 2 * SHOWN:
         gap = tuple("⋮" for _ in headings)
         rows = [*rows[:SHOWN], gap, *rows[-SHOWN:]]

@@ -10,12 +10,14 @@ from bbsd.architecture.boxes import first_match
 from bbsd.architecture.rules import sizes_of
 from bbsd.architecture.sayings import one_line
 from bbsd.explanation.conditions import join_words
+from bbsd.language.meaning.setting.targets import target_name
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from bbsd.api.paging import Page
     from bbsd.explanation import LayerInWords, RuleInWords
+    from bbsd.language.field_types import Expression
     from bbsd.language.meaning.behaviors import Module
     from bbsd.report.plain import Plain
 
@@ -47,7 +49,7 @@ def _behavior_plain(page: Page, index: int, module: Module, layer: LayerInWords 
     return {
         "name": module.name,
         "actions": [
-            {"name": name, "sets": [[command, one_line(value)] for command, value in sets.items()]}
+            {"name": name, "sets": [[command, value] for command, value in _sets_plain(sets).items()]}
             for name, sets in written.actions.items()
         ],
         "inputs": [{"name": name, "cells": [*map(str, cells)]} for name, cells in module.inputs.items()],
@@ -63,6 +65,16 @@ def _behavior_plain(page: Page, index: int, module: Module, layer: LayerInWords 
         "is_listed": is_listed,
         "visits": _visits(page, index, len(table)) if is_listed else None,
     }
+
+
+def _sets_plain(sets: Mapping[str, Expression]) -> dict[str, str]:
+    """Return what an action sets of each state, as written; of elements, with their indices before."""
+    texts: dict[str, list[str]] = {}
+    for key, value in sets.items():
+        name, text = target_name(key), one_line(value)
+        indices = key.strip().removeprefix(name)
+        texts.setdefault(name, []).append(f"{indices}: {text}" if indices else text)
+    return {name: "; ".join(written) for name, written in texts.items()}
 
 
 def _rules_of_cells(rules: Sequence[RuleInWords], module: Module) -> Plain:
@@ -118,4 +130,6 @@ def commands_plain(page: Page) -> list[Plain]:
     """Return the names that actions set, in the spec's order of behaviors."""
     behaviors = page.loaded.spec.behaviors
     used = [behaviors[layer.behavior] for layer in reversed(page.explanation.layers)]
-    return [*dict.fromkeys(name for each in used for sets in each.actions.values() for name in sets)]
+    return [
+        *dict.fromkeys(target_name(key) for each in used for sets in each.actions.values() for key in sets)
+    ]

@@ -53,6 +53,11 @@ def read_target(key: str) -> Target | Mistake:
     )
 
 
+def target_name(key: str) -> str:
+    """Return the name of what a key of an action sets, without indices."""
+    return key.partition("[")[0].strip()
+
+
 def indices_of(target: Target, form: Form, scope: Scope) -> tuple[Node, ...] | None:
     """Return the values of a target's indices for the scope's robot; None after a mistake.
 
@@ -108,7 +113,7 @@ def _replaced(old: Value, indices: Sequence[Node], new: Value, hit: Node, graph:
             place = clamp_index(value_of(index), last) if last else 0
             inner = _replaced(old[place], further, new, hit, graph)
             return (*old[:place], inner, *old[place + 1 :])
-        at = graph.apply("clamp_index", index, graph.cell(last))
+        at = graph.apply("clamp_index", index, data=last)
         return tuple(
             _replaced(item, further, new, _both(hit, graph.apply("==", at, graph.cell(place)), graph), graph)
             for place, item in enumerate(old)
