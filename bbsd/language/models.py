@@ -73,16 +73,16 @@ class Environment(Part):
     robots: Whole = Field(1, ge=1, le=64, description="Robots that carry the architecture.")
     steps: Whole = Field(ge=1, le=10_000_000, description="Steps of an episode at most.")
     world: Entries[ValueNameText, ExpressionText] = Field(
-        {}, description="Values the team has once: name and starting value."
+        {}, description="Values the team has once: name and starting value, a number, a truth, or a list."
     )
     state: Entries[ValueNameText, ExpressionText] = Field(
-        {}, description="Values each robot has: name and starting value."
+        {}, description="Values each robot has: name and starting value, a number, a truth, or a list."
     )
     definitions: Entries[DefinitionText, ExpressionText] = Field(
         {}, description="Names for expressions, with or without parameters."
     )
     dynamics: Entries[ValueNameText, ExpressionText] = Field(
-        {}, description="The next value of world and state names; others stay."
+        {}, description="The next value of world and state names, of lists as a whole; others stay."
     )
     sensors: Entries[ValueNameText, PartitionText] = Field(
         {}, description="What a robot senses: an expression, or a partition that behaviors share."
@@ -164,7 +164,7 @@ class Behavior(Part):
         description="Its own partitions, or names: of sensors that are, of truths in the state; none: one cell.",
     )
     actions: Entries[ActionNameText, Entries[str, ExpressionText]] = Field(
-        description="For each action, the state it sets and the value."
+        description="For each action, the state it sets, or an element as name[index], and the value."
     )
     rules: list[RuleText] | None = Field(
         None, description="What to do where; the first match decides. None: all open."

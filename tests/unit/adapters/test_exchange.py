@@ -18,7 +18,7 @@ def test_actions_that_set_the_same_are_one_choice():
 
 def test_what_behaviors_may_know_is_observed_by_name():
     exchange = Exchange(meaning_of(RICH))
-    assert exchange.names == ("x", "armed", "n", "noisy", "sides_0", "sides_1", "place")
+    assert exchange.names == ("x", "armed", "n", "noisy", "sides[0]", "sides[1]", "place")
     assert len(exchange.nodes) == 3 * 7
     named = exchange.named([0.5, 1.0, 2.0, 0.25, -1.0, 4.0, 1.0])
     assert named == {"x": 0.5, "armed": True, "n": 2.0, "noisy": 0.25, "sides": [-1.0, 4.0], "place": 1}

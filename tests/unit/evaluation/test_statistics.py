@@ -57,7 +57,7 @@ def test_sums_become_means_and_shares():
     assert found.expectation_share["a"] == 2 / 3
     assert math.isnan(found.expectation_share["b"])
     assert found.steps == pytest.approx(10 / 3)
-    assert found.not_finite == {"s_0_1": 6, "what decides a cell or an index": 3}
+    assert found.not_finite == {"s_0[1]": 6, "what decides a cell or an index": 3}
     assert found.ci95 == (found.returns.low, found.returns.high)
 
 
