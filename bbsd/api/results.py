@@ -162,7 +162,9 @@ class Designed:
     random: Interval
     """The mean return of random agents, for comparison."""
     seconds: float
-    """How long the design took."""
+    """How long the design took, without compiling."""
+    compile_seconds: float
+    """How long this process compiled for it; next to nothing where the kernels were in the cache."""
     selection: Selection
     """What selection among random agents has to work on."""
     spent: int

@@ -36,6 +36,7 @@ with _config_file_hidden():
     from numba.core import config
     from numba.core.codegen import get_host_cpu_features
     from numba.core.dispatcher import Dispatcher
+    from numba.core.event import TimingListener, register
 
     from bbsd.kernel import intrinsics
     from bbsd.kernel.compiled_files import keep_compiled
@@ -58,6 +59,10 @@ def with_widest_vectors(host: str) -> str:
 
 if SETTINGS["CPU_FEATURES"] is None:  # else the user has set them
     SETTINGS["CPU_FEATURES"] = with_widest_vectors(get_host_cpu_features())  # type: ignore[no-untyped-call]  # numba has no types
+
+COMPILING = TimingListener()  # type: ignore[no-untyped-call]  # numba has no types
+"""Measures how long is spent on compiling; what is found in the cache takes no time here."""
+register("numba:compile", COMPILING)  # type: ignore[no-untyped-call]
 
 OPTIONS: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 # Inlined, since a call would keep a loop over lanes scalar; never called from outside, so without wrappers.

@@ -59,6 +59,7 @@ def design_plain(designed: Designed, seed: int, runs: int) -> dict[str, Plain]:
         "method": designed.method,
         "structure": list(designed.structure),
         "seconds": finite_or_none(designed.seconds),
+        "compile_seconds": finite_or_none(designed.compile_seconds),
         "seed": seed,
         "runs": runs,
         "search_episodes": designed.spent,

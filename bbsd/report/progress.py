@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.api import Progress as GenerationProgress
 from bbsd.report.bars import sparkline
-from bbsd.report.numbers import column, count
+from bbsd.report.numbers import column, count, duration
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -109,12 +109,21 @@ class _Tenths:
 
 def _live_display(console: Console) -> rich_progress.Progress:
     from rich.progress import Progress, TextColumn, TimeRemainingColumn
+    from rich.text import Text
+
+    class Time(TimeRemainingColumn):
+        """The time that is left; while nothing is known of it yet, the time that compiling has taken."""
+
+        def render(self, task: rich_progress.Task) -> Text:
+            if task.total is None:
+                return Text(duration(task.elapsed or 0.0), style="progress.elapsed")
+            return super().render(task)
 
     return Progress(
         TextColumn("{task.description}", markup=False),
         TextColumn("{task.fields[fitness]}", markup=False),
         TextColumn("{task.fields[curve]}", style="cyan", markup=False),
-        TimeRemainingColumn(compact=True),
+        Time(compact=True),
         console=console,
         transient=True,
     )

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 BAR_WIDTH = 24
 SMALL = 1e-9
 """Mean steps that are a whole number but for rounding."""
+WORTH_SAYING = 0.5
+"""Seconds of compiling that are told."""
 INTERVAL = "95 % interval"
 JOINT_POLICY = "as one joint table"
 
@@ -53,7 +55,7 @@ def design_table(designed: Designed) -> RenderableType:
     """Return tables of the structure, highest layer first, and of the returns of the design and of random agents."""
     path = escape(designed.name if designed.written is None else str(designed.architecture))
     # People copy the path, so it is never broken into lines.
-    where = Text(f"{path}, designed in {duration(designed.seconds)}", no_wrap=True, overflow="ignore")
+    where = Text(f"{path}, designed in {_time_taken(designed)}", no_wrap=True, overflow="ignore")
     parts: list[RenderableType] = [_structure(designed.structure), _returns(designed)]
     if designed.each:
         parts.append(_runs(designed))
@@ -61,6 +63,12 @@ def design_table(designed: Designed) -> RenderableType:
     parts += [Text(line) for line in early]
     parts += [Text(warning, "yellow") for warning in warnings_of(designed)]
     return Group(*_separated([*parts, where]))
+
+
+def _time_taken(designed: Designed) -> str:
+    """Return how long a design took, and what was compiled before if that is worth a word."""
+    compiling = f", after {duration(designed.compile_seconds)} of compiling"
+    return duration(designed.seconds) + compiling * (designed.compile_seconds >= WORTH_SAYING)
 
 
 def runs_table(rows: Sequence[tuple[str, Interval, Sequence[str]]], heading: str = "run") -> RenderableType:

@@ -172,7 +172,7 @@ def test_a_design_is_the_same_in_another_process(designed, tmp_path):
     result = json.loads(out)
     assert [*result] == [
         *("architecture", "return", "episodes", "lifetime", "random", "method"),
-        *("structure", "seconds", "seed", "runs", "search_episodes"),
+        *("structure", "seconds", "compile_seconds", "seed", "runs", "search_episodes"),
     ]
     for name in ("architecture.yaml", "metrics.jsonl", "curves.png"):
         assert (tmp_path / "again" / name).read_bytes() == (designed[0] / name).read_bytes()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -24,6 +23,7 @@ from bbsd.solver.judgement import judge
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from bbsd.api.making.stopwatch import Stopwatch
     from bbsd.engines.engine import Engine
     from bbsd.environments.opening import Opened
     from bbsd.language.loading import Loaded
@@ -53,14 +53,14 @@ class Means(NamedTuple):
     rivals: Sequence[str]
 
 
-def carried_out(command: Command, kept: Kept, means: Means, started: float) -> Designed:
+def carried_out(command: Command, kept: Kept, means: Means, stopwatch: Stopwatch) -> Designed:
     """Carry out a command, whose folder is locked, and return its result.
 
     Args:
         command: the runs.
         kept: what it is of.
         means: by what, and who is told.
-        started: when it began, on the monotonic clock.
+        stopwatch: measures since it began.
 
     Raises:
         Interrupted: it was interrupted.
@@ -91,6 +91,7 @@ def carried_out(command: Command, kept: Kept, means: Means, started: float) -> D
     folder.write_run_file(command.who, overrides, command.budgets, result, kept.fickle, beginnings)
     with interruptible(command, kept.loaded, means.overdue, keep_best=False, is_kept=kept.is_written):
         others = tuple(_rival(command, name, kept.loaded, means) for name in means.rivals)
+    seconds, compile_seconds = stopwatch.read()
     # What follows reads the runs again, and mends them where it must: nobody else may write yet.
     return Designed(
         name=kept.loaded.spec.name,
@@ -103,7 +104,8 @@ def carried_out(command: Command, kept: Kept, means: Means, started: float) -> D
         evaluation=judged.evaluation,
         lifetime=judged.lifetime,
         random=judged.random,
-        seconds=time.monotonic() - started,
+        seconds=seconds,
+        compile_seconds=compile_seconds,
         selection=judged.selection,
         spent=spent(command),
         each=each_run(command, answers) if command.n_runs > 1 else (),

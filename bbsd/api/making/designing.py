@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -12,6 +11,7 @@ from bbsd.api.making.carrying import Kept, Means, carried_out, why_fickle
 from bbsd.api.making.place import Wanted, former_of, place_of, require_former
 from bbsd.api.making.rivals import known_rivals
 from bbsd.api.making.starting import beginnings_of, resumed_beginnings, starts
+from bbsd.api.making.stopwatch import Stopwatch
 from bbsd.api.results import AnyProgress, Designed, Interrupted, NoBudget, NothingToDesign
 from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.architecture import require_writable
@@ -128,7 +128,7 @@ def design(
         ImportNotAllowed: the spec's environment needs a module that was not allowed.
         EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
-    started = time.monotonic()
+    stopwatch = Stopwatch()
     resume = resume or more is not None
     former = former_of(spec, goes_on=resume)
     if former is not None:
@@ -184,7 +184,7 @@ def design(
             origin_of(loaded, opened, beginnings),
         )
         kept = Kept(loaded, fickle, is_written=wanted.is_kept)
-        return carried_out(command, kept, Means(jobs, engine, progress, overdue, rivals), started)
+        return carried_out(command, kept, Means(jobs, engine, progress, overdue, rivals), stopwatch)
 
 
 def _budgets(

@@ -42,6 +42,7 @@ def designed(evaluation):
         lifetime=Interval(299.2, 20.0, 296.2, 302.2, 200),
         random=Interval(-612.3, 300.0, -642.5, -582.1, 1000),
         seconds=41.2,
+        compile_seconds=0.1,
         selection=Selection(None, (), 1000, 10_000),
         spent=250_000,
         each=(),

@@ -42,6 +42,7 @@ def test_a_design_as_plain_data(designed):
         "method": "paper",
         "structure": ["stop_at_goal", "push_more"],
         "seconds": 41.2,
+        "compile_seconds": 0.1,
         "seed": 7,
         "runs": 2,
         "search_episodes": 250_000,

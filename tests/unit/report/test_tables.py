@@ -143,3 +143,9 @@ def test_a_rival_has_a_row_and_a_search_no_lifetimes(designed):
     assert row(text, "rival random")[2] == "304.50"
     assert "after 250,000 episodes" in text
     assert "lifetime" not in text
+
+
+def test_what_was_compiled_before_a_design_is_told_where_it_took_long(designed):
+    assert printed(design_table(designed)).endswith("architecture.yaml, designed in 41.2 s")
+    slow = replace(designed, seconds=2.2, compile_seconds=14.0)
+    assert printed(design_table(slow)).endswith("designed in 2.2 s, after 14.0 s of compiling")
