@@ -10,7 +10,7 @@ from hashlib import sha256
 import pytest
 
 import bbsd as api
-from bbsd.runs.storage import folder, identity, listing
+from bbsd.runs.storage import choosing, identity, listing
 from bbsd.version import REVISION, __version__
 from tests.end_to_end.commands import bbsd
 from tests.runs.__main__ import EPISODES, FINISHED, HOME, STOPPED, folder_of_this_version
@@ -127,7 +127,7 @@ def test_a_later_revision_refuses_to_continue_and_reads(name, tmp_path, monkeypa
     version = folder_of_this_version()
     copied = shutil.copytree(version, tmp_path / "old")
     before = content_of(copied)
-    for module in (identity, folder, listing):
+    for module in (identity, choosing, listing):
         monkeypatch.setattr(module, "REVISION", REVISION + 1)
     code, out, err = resumed(copied, version, name)
     assert (code, out) == (2, "")
