@@ -12,7 +12,9 @@ from pathlib import Path
 
 FENCE = re.compile(r"^```(?P<kind>\w+)(?: (?P<name>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"^\$ (.+)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)
-VARYING = re.compile(r"\d+(\.\d+)? s(, after .* of compiling)?$|\d{4}-\d\d-\d\d \d\d:\d\d$", re.MULTILINE)
+VARYING = re.compile(
+    r"(\d+ min )?\d+(\.\d+)? s(, after .* of compiling)?$|\d{4}-\d\d-\d\d \d\d:\d\d$", re.MULTILINE
+)
 
 
 def replayed(text: str, folder: Path) -> str:

@@ -1,32 +1,23 @@
 import re
+from importlib import import_module
+from pathlib import Path
 
 import pytest
 
+import bbsd.errors
 from bbsd.errors import KINDS, DiagnosisKind, Severity, describe
 from bbsd.errors.catalog import in_order_of_codes
-from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
-from bbsd.errors.expression_kinds import EXPRESSION_KINDS
-from bbsd.errors.list_kinds import LIST_KINDS
-from bbsd.errors.outside_kinds import OUTSIDE_KINDS
-from bbsd.errors.spec_kinds import SPEC_KINDS
-from bbsd.errors.text_kinds import TEXT_KINDS
-from bbsd.errors.warning_kinds import WARNING_KINDS
-from bbsd.errors.word_kinds import WORD_KINDS
 
-LISTED = (
-    TEXT_KINDS,
-    SPEC_KINDS,
-    EXPRESSION_KINDS,
-    OUTSIDE_KINDS,
-    LIST_KINDS,
-    ENVIRONMENT_KINDS,
-    WORD_KINDS,
-    WARNING_KINDS,
-)
+FILES = sorted(Path(bbsd.errors.__file__).parent.glob("*_kinds.py"))
+MODULES = [import_module(f"bbsd.errors.{file.stem}") for file in FILES]
+LISTED: list[tuple[DiagnosisKind, ...]] = [
+    kinds for module in MODULES for name, kinds in vars(module).items() if name.endswith("_KINDS")
+]
 
 
 def test_codes_are_unique_and_ordered_by_their_numbers() -> None:
     listed = [kind.code for kinds in LISTED for kind in kinds]
+    assert len(LISTED) == len(FILES)
     assert len(KINDS) == len(listed)
     assert list(KINDS) == sorted(listed, key=lambda code: int(code.removeprefix("BB")))
     assert all(re.fullmatch(r"BB\d{3,}", code) for code in KINDS)
