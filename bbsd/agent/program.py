@@ -35,9 +35,13 @@ class Act(NamedTuple):
     """
 
     number: int
+    """The action's number in the whole design, from 1; 0 where nobody controls."""
     behavior: str | None
+    """The behavior in control."""
     action: str | None
+    """Its action."""
     sets: dict[str, SetValue]
+    """What the action sets, by the state's name."""
 
 
 @dataclass(frozen=True, slots=True)

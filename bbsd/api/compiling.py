@@ -24,6 +24,11 @@ def compile(spec: AnySpec, *, lanes: int = DEFAULT_LANES, set: Assignments = ())
 
     Where an environment is stepped in Python, between the phases of a step, there are functions for these.
 
+    Args:
+        spec: A spec, with holes or without.
+        lanes: Episodes that the kernel runs side by side.
+        set: Values that replace those of the spec.
+
     Raises:
         SpecError: with all mistakes of the spec.
     """

@@ -104,6 +104,11 @@ class Progress:
         """What a run consists of, in generations."""
         return self.generations
 
+    def __str__(self) -> str:
+        """Return a line for `progress=print`."""
+        fitness = f"mean {self.mean:.6g}, best {self.best:.6g}, lifetime {self.lifetime:.6g}"
+        return f"run {self.run}/{self.runs}, generation {self.generation}/{self.generations}: {fitness}"
+
 
 @dataclass(frozen=True, slots=True)
 class SearchProgress:
@@ -132,6 +137,12 @@ class SearchProgress:
     def total(self) -> int:
         """What a run consists of, in episodes."""
         return self.budget
+
+    def __str__(self) -> str:
+        """Return a line for `progress=print`."""
+        rival = f"rival {self.rival}, " if self.rival else ""
+        best = f"best so far {self.mean:.6g} in {self.measured:,} new episodes"
+        return f"{rival}run {self.run}/{self.runs}, {self.episodes:,} of {self.budget:,} episodes: {best}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,6 +62,9 @@ def check(spec: AnySpec) -> tuple[Diagnosis, ...]:
 
     A file that cannot be read is a mistake too.
 
+    Args:
+        spec: What `load` takes.
+
     Raises:
         NoDesign: a folder that is no run, or a run without an answer.
     """

@@ -11,6 +11,10 @@ from bbsd.architecture.shorter import Shorter, shorter
 def tidy(spec: AnySpec, *, set: Assignments = ()) -> Shorter:
     """Return a design in fewer words that is proven to do the same in every joint cell; write nothing.
 
+    Args:
+        spec: A design: a spec without holes.
+        set: Values that replace those of the spec.
+
     Raises:
         SpecError: with all mistakes of the spec.
         HolesLeft: the spec has holes.

@@ -71,8 +71,11 @@ class Evaluation:
     """The statistics of episodes of one design, or of many random agents."""
 
     returns: Interval
+    """The return of an episode, its mean with the 95 % interval."""
     episodes: int
+    """Episodes in all."""
     agents: int
+    """Agents that ran them, 1 for a design."""
     reward_terms: dict[str, float]
     """Mean per episode."""
     control_share: dict[str, float]
@@ -87,6 +90,7 @@ class Evaluation:
     NaN where it never controlled.
     """
     exact: bool = False
+    """Whether the return is the mean over all starts, each run or worked out once, and no sample."""
     spread: Spread | None = None
     """The returns of single episodes; None of a single one."""
     optimum: Optimum | None = None

@@ -46,7 +46,7 @@ def _edit(path: Path, diff: str) -> None:
 
 def _command(command: str, shown: str, folder: Path) -> str:
     printed = _printed(command, folder)
-    return f"$ {command}\n{shown if _agree(shown, printed) else printed}"
+    return f"$ {command}\n{shown if agree(shown, printed) else printed}"
 
 
 def _printed(command: str, folder: Path) -> str:
@@ -68,7 +68,7 @@ def _printed(command: str, folder: Path) -> str:
     return f"{text}\n" if text else ""
 
 
-def _agree(shown: str, printed: str) -> bool:
+def agree(shown: str, printed: str) -> bool:
     """Whether a document shows what is printed; ... on a line stands for any lines; durations and times may differ."""
     parts = [
         re.escape(VARYING.sub("0 s", part)) for part in re.split(r"^\.\.\.\n", shown, flags=re.MULTILINE)

@@ -44,7 +44,7 @@ assert_type(agent, bbsd.Agent)
 act = agent.act({"position": 3.0})
 assert_type(act, Act)
 assert_type(act.action, str | None)
-assert_type(act.sets, dict[str, float | bool])
+assert_type(list(act.sets), list[str])
 
 assert_type(bbsd.trace(designed, episode="worst"), Trace)
 assert_type(bbsd.explain(designed), Explanation)

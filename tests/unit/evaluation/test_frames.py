@@ -1,5 +1,4 @@
 import builtins
-import json
 from pathlib import Path
 
 import pytest
@@ -86,10 +85,9 @@ def test_an_evaluation_has_a_row_for_each_thing_measured(pandas):
     ]  # fmt: skip
 
 
-def test_runs_have_their_metrics(pandas, tmp_path):
-    (tmp_path / "metrics.jsonl").write_text("".join(json.dumps(line) + "\n" for line in LINES))
+def test_runs_have_their_metrics(pandas):
     designed = object.__new__(Designed)
-    object.__setattr__(designed, "folder", tmp_path)
+    object.__setattr__(designed, "metrics", tuple(LINES))
     assert designed.to_frame()["generation"].tolist() == [1, 2]
     watched = Watched(Path("x"), "running", 1, 0, (WatchedRun(1, "hill", tuple(LINES)),), {})
     assert watched.to_frame()["rival"].tolist() == ["hill", "hill"]
