@@ -91,16 +91,20 @@ release-check: $(RELEASE)/.release
 
 # The quick tests with the lowest versions of what pyproject.toml asks for.
 lowest: $(LOWEST)/.lowest
+	$(LOWEST)/bin/ruff check --quiet .
+	$(LOWEST)/bin/mypy
 	$(LOWEST)/bin/pytest -q -n 2 --dist worksteal -m "not slow" --ignore tests/end_to_end --hypothesis-profile quick
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 $(VENV)/.demo: $(BIN)/python pyproject.toml
+	@echo "Installing bbsd and what it needs into $(VENV): about 450 MB, a minute. The command is $(BIN)/bbsd then."
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[plot]"
 	touch $@
 
 $(VENV)/.test: $(BIN)/python pyproject.toml
+	@echo "Installing bbsd and all that its tests need into $(VENV): about a gigabyte, some minutes."
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[test]"
 	touch $@ $(VENV)/.demo
 

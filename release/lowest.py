@@ -15,7 +15,7 @@ from release.commands import ROOT
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-REQUIREMENT = re.compile(r"(?P<name>[\w-]+)(?:\[[\w,-]+\])?(?:>=(?P<version>[\d.]+))?")
+REQUIREMENT = re.compile(r"(?P<name>[\w-]+)(?:\[[\w,-]+\])?(?:>=(?P<version>[\d.]+))?(?:; .*)?")
 OWN = "bbsd"
 
 

@@ -9,8 +9,8 @@ from bbsd.cli.app import app
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-OTHERS = {"--update-golden", "--nworkers", "--nthreads"}
-"""Options of pytest and of Dask."""
+OTHERS = {"--editable", "--update-golden", "--nworkers", "--nthreads"}
+"""Options of pip, of pytest and of Dask."""
 TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
 
 

@@ -48,7 +48,9 @@ def test_the_oldest_python_is_the_same_everywhere():
 
 @pytest.mark.parametrize("requirement", REQUIREMENTS)
 def test_a_requirement_has_a_lower_bound_and_no_upper_one(requirement):
-    assert re.fullmatch(r"bbsd\[[\w,-]+\]|[\w-]+(\[[\w,]+\])?>=[\d.]+", requirement)
+    assert re.fullmatch(
+        r"bbsd\[[\w,-]+\]|[\w-]+(\[[\w,]+\])?>=[\d.]+(; python_version < '3\.\d+')?", requirement
+    )
 
 
 def test_every_extra_that_is_asked_for_exists():

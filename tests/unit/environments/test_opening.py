@@ -48,6 +48,7 @@ def test_so_are_those_of_what_it_inherits_from_and_imports():
         "source",
     }  # the standard library and bbsd's tests have none
     pytest.importorskip("gymnasium")
+    pytest.importorskip("Box2D")
     target = Outside("gymnasium", "LunarLander-v3", {}, (), ())
     lander = open_environment(Recipe(target, 1, Consent(("gymnasium",))))
     assert lander.origin.keys() == {"Box2D", "gymnasium", "numpy", "source"}
