@@ -179,12 +179,17 @@ def design(
             folder,
             run_identity,
             budgets,
-            within if time_limit is None else time_limit / -(-runs // jobs),
+            within if time_limit is None else time_limit / -(-runs // _side_by_side(jobs, engine)),
             time_limit is not None,
             origin_of(loaded, opened, beginnings),
         )
         kept = Kept(loaded, fickle, is_written=wanted.is_kept)
         return carried_out(command, kept, Means(jobs, engine, progress, overdue, rivals), stopwatch)
+
+
+def _side_by_side(jobs: int, engine: Engine | None) -> int:
+    """Return how many runs go on at the same time."""
+    return jobs if engine is None or engine.shares_machine else max(1, engine.capacity())
 
 
 def _budgets(
