@@ -7,7 +7,7 @@ from itertools import product
 from math import isfinite, prod
 from typing import TYPE_CHECKING, Any, Literal, SupportsFloat
 
-from bbsd.architecture.sayings import one_line, partition_text
+from bbsd.architecture.sayings import one_line, partition_text, start_text
 from bbsd.errors import UsageError, did_you_mean
 from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.tables.labels import Numbers
@@ -159,9 +159,9 @@ def _text(meaning: Meaning, name: str) -> str:
     if environment.outside is not None and name in environment.outside.names:
         return f"observation of {environment.outside.target}"
     is_world = name in environment.world
-    start = one_line((environment.world if is_world else environment.state)[name])
+    start = start_text((environment.world if is_world else environment.state)[name])
     then = f", then {one_line(environment.dynamics[name])}" if name in environment.dynamics else ""
-    return f"{'world' if is_world else 'state'}: starts as {start}{then}"
+    return f"{'world' if is_world else 'state'}: {start}{then}"
 
 
 def complaint(

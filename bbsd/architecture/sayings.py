@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.expression.syntax.tree import OneOf
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -25,6 +27,11 @@ def input_texts(spec: Spec, behavior: Behavior) -> dict[str, str]:
 def mapping_text(written: Mapping[str, Expression]) -> str:
     """Return what an action sets, or named cells with their conditions; `nothing` where there is nothing."""
     return "; ".join(f"{name}: {one_line(expression)}" for name, expression in written.items()) or "nothing"
+
+
+def start_text(start: Expression) -> str:
+    """Return what a sentence says of how a value starts: `starts as 0`, or `one of [idle, home]`."""
+    return one_line(start) if isinstance(start.tree, OneOf) else f"starts as {one_line(start)}"
 
 
 def one_line(expression: Expression) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.architecture.sayings import input_texts, mapping_text, one_line
+from bbsd.architecture.sayings import input_texts, mapping_text, start_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -32,7 +32,7 @@ def _origin(spec: Spec, name: str) -> str:
     """Return where an input comes from that is what it reads: the state or an observation; else its name."""
     state, outside = spec.environment.state, spec.environment.outside
     if name in state:
-        return f"state, starts as {one_line(state[name])}"
+        return f"state, {start_text(state[name])}"
     return "observed" if outside is not None and any(field.name == name for field in outside.fields) else name
 
 

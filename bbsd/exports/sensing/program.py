@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bbsd.architecture.needs import ACTED, BEFORE, plain_name
-from bbsd.architecture.sayings import mapping_text, one_line
+from bbsd.architecture.sayings import mapping_text, one_line, start_text
 from bbsd.exports.sensing.emission import PLAIN, Emitter, Reading
 from bbsd.exports.sensing.naming import Namer
 from bbsd.exports.sensing.team import Team
@@ -163,7 +163,7 @@ class Program:
     def _memory_comment(self, name: str) -> str:
         if name.startswith(BEFORE):
             return f"{plain_name(name)} at the step before{self._numbers_of(name)}"
-        return f"starts as {one_line(self.meaning.spec.environment.state[name])}"
+        return start_text(self.meaning.spec.environment.state[name])
 
     # --- How leaves are read
 
