@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.scope import Unusable
 from bbsd.expression.syntax.mistakes import Rewriting
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Comparison, Name
+from bbsd.expression.vocabulary import DRAWS
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
@@ -35,7 +38,14 @@ def compared_with_cell(expr: Comparison, scope: Scope) -> Node | None:
         return None
     message = f"{cell} is a cell of {name}, and only rules know cells"
     condition = partition.cells[cell] if operator == "==" else f"not ({partition.cells[cell]})"
+    condition = render(parse(condition))
     advice = f"write the condition that makes the cell: {condition}"
-    # A conditional's parts bind weaker than a comparison's; in parentheses it means the same everywhere.
+    # A condition of several parts binds weaker than a comparison; in parentheses it means the same everywhere.
     new = f"({condition})" if " and " in condition or condition.startswith("not ") else condition
-    return scope.mistake(CELL, message, expr.span, advice, Rewriting(new, expr.span))
+    correction = Rewriting(new, expr.span, is_certain=not draws_again(condition))
+    return scope.mistake(CELL, message, expr.span, advice, correction)
+
+
+def draws_again(condition: str) -> bool:
+    """Return whether a condition draws numbers, which would be others than those that the cell was drawn with."""
+    return any(f"{draw}(" in condition for draw in DRAWS)

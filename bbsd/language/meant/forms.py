@@ -107,13 +107,14 @@ def _without_dashes(reading: Reading, path: Path, items: list[Data]) -> list[Edi
 
 
 def _actions_without_effects(reading: Reading, path: Path, names: list[str]) -> None:
-    state = next(iter(reading.mapping(("environment", "state"))), "speed")
+    state, dynamics = (reading.mapping(("environment", key)) for key in ("state", "dynamics"))
+    example = next((name for name in state if name not in dynamics), next(iter(state), "speed"))
     message = "actions is no list: each action is a name and what it sets"
     reading.tell(
         path,
         "BB022",
         message,
-        f"write {names[0]}: {{{state}: ...}}, with the value that it sets",
+        f"write {names[0]}: {{{example}: ...}}, with the value that it sets",
         None,
         WHOLE,
     )

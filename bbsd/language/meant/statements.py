@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from pydantic_core import PydanticCustomError
 
 from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.mistaken.cells import draws_again
 from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.text import number_text, render
@@ -193,7 +194,7 @@ def cells_as_texts(reading: Reading) -> None:
             "BB051",
             message,
             f"write the condition that makes the cell: {new}",
-            Rewriting(new, span),
+            Rewriting(new, span, is_certain=not draws_again(new)),
             span,
         )
         reading.replace(path, text[: match.start()] + new + text[match.end() :])
