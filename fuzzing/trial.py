@@ -9,6 +9,7 @@ from __future__ import annotations
 import faulthandler
 import os
 import resource
+import signal
 import time
 import traceback
 from dataclasses import dataclass, field
@@ -34,7 +35,7 @@ eight times as slow, and where that end is depends on the calls around it. On a 
 same effect.
 """
 HANGS = 120
-"""Seconds after which a check that does not return is reported with its stack."""
+"""Seconds of the processor after which a check that does not return is reported with its stack, and ends all."""
 WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 FORBIDDEN = {
     "ctypes.dlopen",
@@ -81,7 +82,8 @@ def trial(path: Path, watch: Watch) -> tuple[str, float]:
     """Check and format a spec; return the rule that was broken, empty if none was, and the seconds of the check."""
     watch.spec, watch.events = str(path), []
     seconds, broken = 0.0, ""
-    faulthandler.dump_traceback_later(HANGS, exit=True)
+    faulthandler.register(signal.SIGPROF, chain=True)  # shows the stack, then the signal ends the process
+    signal.setitimer(signal.ITIMER_PROF, HANGS)
     watch.on = True
     try:
         seconds = check_seconds(path)
@@ -91,7 +93,7 @@ def trial(path: Path, watch: Watch) -> tuple[str, float]:
     except BaseException:  # noqa: BLE001 - no exception whatever may come out
         broken = traceback.format_exc()
     watch.on = False
-    faulthandler.cancel_dump_traceback_later()
+    signal.setitimer(signal.ITIMER_PROF, 0)
     if not broken and seconds > MOST_SECONDS:
         broken = f"the check took {seconds:.1f} s of the processor"
     if not broken and peak_megabytes() > MOST_MEGABYTES:

@@ -102,9 +102,9 @@ def static_whole(expr: Expr, scope: Scope, purpose: str) -> int | None:
 
 
 def _number_draws(expr: Expr, scope: Scope) -> Scope:
-    if scope.draws is None:
+    if scope.draws is None or not (calls := _draws_in(expr)):
         return scope
-    ordinals = {call.span: ordinal for ordinal, call in enumerate(_draws_in(expr))}
+    ordinals = {call.span: ordinal for ordinal, call in enumerate(calls)}
     return replace(scope, draws=replace(scope.draws, ordinals=ordinals))
 
 

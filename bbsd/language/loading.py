@@ -11,7 +11,7 @@ from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
-from bbsd.language.meant.placing import placed
+from bbsd.language.meant.placing import Placing
 from bbsd.language.meant.texts import refined
 from bbsd.language.meant.understanding import as_meant
 from bbsd.language.overrides import FILE as OVERRIDES
@@ -180,13 +180,13 @@ def _diagnoses(
     told = [each for each in files.mistakes if not _is_explained(each, files, explained)]
     better = _better_told(files) if told else {}
     unreadable = {_start(diagnosis.place) for diagnosis in told}
-    diagnoses = [better.get(each, each) for each in told]
+    diagnoses, placing = [better.get(each, each) for each in told], Placing(files)
     for path, mistake in mistakes:
         place = _place((path, mistake), files, data, overrides)
         starts = {_start(place), _start(files.place(existing(path, data)))}
         if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _lacks_a_part(files)):
             nearest = existing(path, data)
-            correction = None if place.file == OVERRIDES else placed(mistake.correction, nearest, files)
+            correction = None if place.file == OVERRIDES else placing.placed(mistake.correction, nearest)
             diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
 

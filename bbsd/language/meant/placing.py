@@ -18,19 +18,24 @@ if TYPE_CHECKING:
     from bbsd.language.lineage import Lineage
     from bbsd.text import Data, Document
 
-MAX_CHARACTERS = 100_000
-"""Characters of a file up to which corrections are searched: each is proven by reading the file again."""
+MAX_CHARACTERS = 150_000
+"""Characters that are read again in all: each correction is proven by reading its file, half of the time of a check."""
 
 
-def placed(correction: Rewriting | Correction | None, path: Path, files: Lineage) -> Correction | None:
-    """Return a correction with its edits; None where the file would not then say what is meant."""
-    if not isinstance(correction, Rewriting):
-        return correction
-    document = files.document(path)
-    if len(document.source.text) > MAX_CHARACTERS:
-        return None
-    edits = _edits(correction, path, document)
-    return None if edits is None else Correction((edits,), correction.is_certain)
+class Placing:
+    """Finds the edits of corrections, until so much was read that no more of them are searched."""
+
+    def __init__(self, files: Lineage) -> None:
+        self._files, self._left = files, MAX_CHARACTERS
+
+    def placed(self, correction: Rewriting | Correction | None, path: Path) -> Correction | None:
+        """Return a correction with its edits; None where the file would not then say what is meant."""
+        if not isinstance(correction, Rewriting):
+            return correction
+        document = self._files.document(path)
+        self._left -= len(document.source.text)
+        edits = _edits(correction, path, document) if self._left >= 0 else None
+        return None if edits is None else Correction((edits,), correction.is_certain)
 
 
 def _edits(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:

@@ -87,13 +87,16 @@ class _Setting:
 
     def _after(self, written: Sequence[tuple[Path, Target, Expression]], robot: int) -> Value:
         """Return a robot's value after all keys of its name."""
-        own = self.scope.at(written[0][0], robot)
-        value = elaboration.value(Name(self.name, WHOLE), own) if self.form.lengths else None
+        value: Value | None = None
+        if self.form.lengths:
+            value = elaboration.value(Name(self.name, WHOLE), self.scope.at(written[0][0], robot))
         earlier: list[tuple[Node, ...]] = []
         for path, target, expression in written:
             inner, key = self.scope.at(path, robot, draws=True), str(path[-1])
             indices = indices_of(target, self.form, inner)
-            form = replace(self.form, lengths=self.form.lengths[len(target.indices) :])
+            form = self.form
+            if target.indices:
+                form = replace(form, lengths=form.lengths[len(target.indices) :])
             if form.names:
                 report_unknown_values(expression.tree, key, form.names, inner)
             value_set = elaboration.value(expression.tree, inner)
