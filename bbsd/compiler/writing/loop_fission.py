@@ -29,6 +29,8 @@ SHORTEST_LOOP, LONGEST_LOOP = 12, 60
 
 A step of lifting as one loop had some 400 instructions, which fill a reorder buffer: 3.0 ns a robot-step, 1.65 ns cut.
 """
+LONGEST_ONCE = 240
+"""Statements of a loop that runs once an episode: cutting it saves no time but LLVM's, which grows with its square."""
 
 
 def loop_lines(
@@ -79,6 +81,13 @@ def split_loop(block: Block, function: RolloutFunction) -> list[list[str]]:
         ]
         for part, used, defined in zip(parts, uses, definitions, strict=True)
     ]
+
+
+def once_loops(lines: Sequence[str], function: RolloutFunction) -> list[str]:
+    """Return loops over lanes that do lines which need nothing of one another: one, or several where they are many."""
+    length = len(lines) if len(lines) <= LONGEST_ONCE else LONGEST_LOOP
+    parts = [lines[first : first + length] for first in range(0, len(lines), length)]
+    return [line for part in parts for line in function.lane_loop(part)]
 
 
 def _reads(read: dict[str, str], names: frozenset[str]) -> list[str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.details import IN_DETAIL, Detail
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.emission import emitter_of
-from bbsd.compiler.writing.loop_fission import loop_lines
+from bbsd.compiler.writing.loop_fission import LONGEST_ONCE, loop_lines
 from bbsd.compiler.writing.practice import RECORDS, Practice
 from bbsd.compiler.writing.precedence import Text, name_text
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
@@ -59,7 +59,8 @@ class Parts:
             first.store(function.at(function.running), ONE)
         if function.uncertain is not None:
             first.store(function.at(function.uncertain), ZERO)
-        return loop_lines(emitter.blocks, function, split=function.looped)
+        is_long = len(first.statements) > LONGEST_ONCE
+        return loop_lines(emitter.blocks, function, split=function.looped or is_long)
 
     def step(self) -> list[str]:
         """Return the lines of a step of every lane, in the order of the language's definition."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import IN_DETAIL, Detail, checked_slots, traced_definitions, traced_slots
 from bbsd.compiler.writing.deciding import deciding_numbers
+from bbsd.compiler.writing.loop_fission import once_loops
 from bbsd.compiler.writing.looping import FIRST_ROBOT
 from bbsd.compiler.writing.precedence import Text, infix, join, name_text, sum_of, times
 from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 MOST_ADDED = 3
 """Conditional sums in one expression, so that lines can be read."""
+MOST_TERMS = 30
+"""Terms of a reward in one expression, so that the loop that adds them up need not read them all."""
 DETAILED = ("terms", "control", "steps_taken", "not_finite", "expectations_met")
 """The arguments that a detailed rollout has besides, in their order."""
 
@@ -168,8 +171,10 @@ class Totals:
         where 0.0 was; added to sums that begin with 0.0 it is the same.
         """
         function, total, nested = self.function, None, 0
-        for term, nodes in function.episode.reward.items():
+        for number, (term, nodes) in enumerate(function.episode.reward.items()):
             node = nodes[robot]
+            if total is not None and number % MOST_TERMS == 0:
+                total, nested = end.each.define(function.namer.numbered("so_far"), total), 0
             if total is not None and function.detail not in IN_DETAIL and _is_conditional(node):
                 if nested == MOST_ADDED:
                     total, nested = end.each.define(function.namer.numbered("so_far"), total), 0
@@ -284,29 +289,28 @@ class Totals:
                 value = self._per_robot(total) if argument == "terms" else total
                 lines.append(f"{argument}[{row}base + lane] = {value.source}")
         own_lines = list[str]()
-        for array, row in self._not_finite_rows():
-            into = own_lines if function.is_own(array) else lines
+        for array, row, of_robots in self._not_finite_rows():
+            into = own_lines if of_robots else lines
             into.append(f"not_finite[{row}, base + lane] = {function.at(array)}")
-        return [*function.lane_loop(lines), *(function.robot_loop([], [own_lines]) if own_lines else [])]
+        return [*once_loops(lines, function), *(function.robot_loop([], [own_lines]) if own_lines else [])]
 
-    def _not_finite_rows(self) -> list[tuple[str, str]]:
-        """Return the arrays that count values that are not finite, each with its row among the caller's.
+    def _not_finite_rows(self) -> list[tuple[str, str, bool]]:
+        """Return the arrays that count values that are not finite, each with its row, and whether each robot has one.
 
         Without loops over robots they are in order. With them an array is for all robots, whose rows follow one
         another, each robot's with those of all its elements.
         """
-        function, rows, first = self.function, list[tuple[str, str]](), 0
+        function, rows, first = self.function, list[tuple[str, str, bool]](), 0
         for _, group in groupby(self.not_finite.items(), lambda entry: entry[0][:2]):
             arrays = list(group)
             robots = function.team if function.looped and arrays[0][0][1] is not None else 1
             for element, (_, array) in enumerate(arrays):
-                if function.is_own(array):
-                    row = sum_of([Text(str(first + element)), times(len(arrays), Text("robot"))])
-                    rows.append((array, row.source))
-                else:
-                    rows += [(array, str(first + element + k * len(arrays))) for k in range(robots)]
+                row = Text(str(first + element))
+                if robots > 1:
+                    row = sum_of([row, times(len(arrays), Text("robot"))])
+                rows.append((array, row.source, robots > 1))
             first += robots * len(arrays)
-        return [*rows, *((array, str(first)) for array in self.undecided)]
+        return [*rows, *((array, str(first), False) for array in self.undecided)]
 
 
 def _is_conditional(node: Node) -> bool:

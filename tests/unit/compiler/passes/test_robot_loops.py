@@ -415,6 +415,15 @@ def test_the_source_does_not_grow_with_the_number_of_robots():
     assert len(many.splitlines()) == len(few.splitlines())
 
 
+def test_counts_of_what_all_robots_hold_alike_are_written_once_for_all():
+    few, many = (
+        source_with(moving(robots=robots, **CASES["what all hold alike"]), MOST_ROBOTS_WRITTEN_OUT)
+        for robots in (4, 64)
+    )
+    assert "not_finite_twice = part(numbers, " in many
+    assert len(many.splitlines()) == len(few.splitlines())
+
+
 def test_an_operation_of_all_robots_is_written_once():
     problem = moving(sensors={"s": "atan(x)"}, dynamics={"y": "s"})
     assert source_with(problem, 1, (Detail.CREDIT,)).count("atan(") == 1 + 1  # at the start and in a step
