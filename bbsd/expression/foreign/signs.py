@@ -185,12 +185,20 @@ def comment(text: str, _key: str) -> Step | None:
             continue
         if mark == ";" and not after.strip():
             return Step(at, 1, 'no ";" ends an expression', "leave it out", before)
-        is_prose = len(re.findall(r"[A-Za-z_]\w*", after)) > 1 and not reads(after.strip())
-        if mark != ";" and (is_prose or mark == "/*"):
+        if mark != ";" and (_is_prose(after) or mark == "/*"):
             words = after.replace("*/", "").strip()
             message = f'a comment begins with #, not with "{mark}"'
-            return Step(at, len(text) - at, message, "", f"{text[:at]}# {words}")
+            # Of `distance // cell size`, a division is as likely; comments stand further away.
+            is_certain = mark == "/*" or (mark == "//" and text[:at].endswith("  "))
+            return Step(at, len(text) - at, message, "", f"{text[:at]}# {words}", is_certain)
     return None
+
+
+def _is_prose(text: str) -> bool:
+    """Return whether two words stand beside each other in a text, and no operator stands in it."""
+    words = re.findall(r"[A-Za-z_]\w*", text)
+    are_beside = re.search(r"[A-Za-z]\w*\s+[A-Za-z]\w*", text) is not None
+    return are_beside and not set(words) & KEYWORDS and not re.search(r"[&|=<>?*+!^]", text)
 
 
 def times(text: str, _key: str) -> Step | None:

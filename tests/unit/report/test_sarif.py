@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity
+from bbsd.errors import KINDS, Correction, Diagnosis, DiagnosisKind, Edit, Place, Severity
 from bbsd.report import sarif
 from bbsd.report.sarif import sarif_log
 
@@ -48,3 +48,16 @@ def test_the_level_is_the_severity(monkeypatch):
     monkeypatch.setattr(sarif, "RULES", tuple(KINDS))
     results = run(DIAGNOSIS, Diagnosis(kind.code, "this is odd", Place("a.yaml", 1, 1)))["results"]
     assert [result["level"] for result in results] == ["error", "warning"]
+
+
+def test_a_correction_is_a_fix() -> None:
+    correction = Correction((Edit(2, 6, 2, 8, "and"),))
+    place = Place("spec.yaml", 2, 6, 2)
+    (result,) = sarif_log([Diagnosis("BB050", "wrong", place, "", correction)])["runs"][0]["results"]
+    ((change,),) = (fix["artifactChanges"] for fix in result["fixes"])
+    assert change["replacements"] == [
+        {
+            "deletedRegion": {"startLine": 2, "startColumn": 6, "endLine": 2, "endColumn": 8},
+            "insertedContent": {"text": "and"},
+        }
+    ]

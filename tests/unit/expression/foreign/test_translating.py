@@ -62,6 +62,7 @@ CERTAIN = {
     "a + b)": "a + b",
     "0  // meters a second": "0  # meters a second",
     "x;": "x",
+    "a // b && c": "a // b and c",
     "abs(robots[1].x - x) < 0.5": "abs(x[1] - x) < 0.5",
     "self.x + 1": "x + 1",
     "x.abs()": "abs(x)",
@@ -77,6 +78,7 @@ PERHAPS = {
     "chance(20%)": "chance(0.2)",
     "normal(mean=0, sd=1)": "normal(0, 1)",
     "2x": "2 * x",
+    "a // cell size": "a # cell size",
     "min(a, b + c": "min(a, b + c)",
 }
 UNCLEAR = ["a b", "a ? 1", "zone == 'x'", "(a", "x.y", "lambda: 1", "a +"]
