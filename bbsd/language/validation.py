@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 MAX_ERRORS = 1000
 MAX_NAMES = 12
 """Names that an advice repeats."""
-MAX_QUOTED = 40
-"""Characters of a wrong text that a message quotes."""
+MAX_QUOTED, MOST_ITEMS = 40, 4
+"""Characters of a wrong text that a message quotes, and equal items that it repeats."""
 
 LocatedMistake = tuple["Path", Mistake]
 """A mistake and its path in the spec."""
@@ -179,11 +179,25 @@ def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
         advice = "put it in quotes"
     elif path[:2] in STORED and (names := names_in(error["input"])):
         advice = f"for a value that is one of several names, write one of [{', '.join(names)}]"
+    elif error["type"] == "not_an_expression" and (written := list_text(error["input"])):
+        advice = f"a list is written {written}"
     elif isinstance(error["input"], str) and needed.startswith("a list"):
         advice = "a list is written in brackets: [one, another]"
     return Mistake(
         code, f"{named(path)} must be {needed}, not {show_value(error['input'])}{hint}", WHOLE, advice
     )
+
+
+def list_text(value: object) -> str:
+    """Return how an expression writes a nested list of scalars; nothing for other values, and for long lists."""
+    if not isinstance(value, list):
+        return scalar_text(value) or ""
+    items = [list_text(item) for item in value]
+    if not all(items):
+        return ""
+    is_long = len(items) > MOST_ITEMS and len(set(items)) == 1
+    text = f"list({items[0]} for k in range({len(items)}))" if is_long else f"list({', '.join(items)})"
+    return text if len(text) <= 2 * MAX_QUOTED else ""
 
 
 STORED = (("environment", "state"), ("environment", "world"))
