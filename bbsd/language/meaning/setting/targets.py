@@ -113,9 +113,8 @@ def _replaced(old: Value, indices: Sequence[Node], new: Value, hit: Node, graph:
             place = clamp_index(value_of(index), last) if last else 0
             inner = _replaced(old[place], further, new, hit, graph)
             return (*old[:place], inner, *old[place + 1 :])
-        at = graph.apply("clamp_index", index, data=last)
         return tuple(
-            _replaced(item, further, new, _both(hit, graph.apply("==", at, graph.cell(place)), graph), graph)
+            _replaced(item, further, new, graph.apply("&", hit, _is_at(index, place, last, graph)), graph)
             for place, item in enumerate(old)
         )
     if isinstance(old, tuple) and isinstance(new, tuple):
@@ -129,8 +128,11 @@ def _replaced(old: Value, indices: Sequence[Node], new: Value, hit: Node, graph:
     return graph.apply("select", hit, new, old)
 
 
-def _both(one: Node, other: Node, graph: Graph) -> Node:
-    return graph.apply("&", one, other)
+def _is_at(index: Node, place: int, last: int, graph: Graph) -> Node:
+    """Return whether a whole number, clamped to the range, is a place; NaN is the first one."""
+    if place == 0:
+        return graph.apply("not", graph.apply(">=", index, graph.number(1)))
+    return graph.apply(">=" if place == last else "==", index, graph.number(place))
 
 
 def certainly_meet(one: Sequence[Node], other: Sequence[Node]) -> bool:
