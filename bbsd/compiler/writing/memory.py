@@ -7,7 +7,6 @@ next, so a loop over the lanes of one robot certainly does not overwrite what it
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, field
 
 from bbsd.expression.kinds import Kind
@@ -22,8 +21,6 @@ class Memory:
     own_numbers: list[str] = field(default_factory=list)
     own_integers: list[str] = field(default_factory=list)
     """The arrays with values of each robot, where there are loops over robots."""
-    elements: dict[str, tuple[str, int]] = field(default_factory=dict)
-    """By the names of elements of lists, which lie one after the other: the list's array, and the place in it."""
 
     def add(self, name: str, kind: Kind, *, own: bool) -> str:
         """Add an array and return its name; truths are kept as the numbers 0 and 1."""
@@ -32,19 +29,6 @@ class Memory:
         else:
             (self.own_numbers if own else self.numbers).append(name)
         return name
-
-    def add_element(self, name: str, of: str, *, own: bool) -> str:
-        """Add one more element to a list of numbers or truths, right behind the one before, and return its name."""
-        others = [other for other, (its_list, _) in self.elements.items() if its_list == of]
-        names = self.own_numbers if own else self.numbers
-        names.insert(names.index(others[-1]) + 1 if others else len(names), name)
-        self.elements[name] = of, len(others)
-        return name
-
-    def element(self, name: str, index: str, lanes: int) -> str:
-        """Return the source of an array's element at an index; of an element of a list, in the list's array."""
-        of, place = self.elements.get(name, (name, 0))
-        return f"{of}[{index} + {place * lanes}]" if place else f"{of}[{index}]"
 
     def is_own(self, name: str) -> bool:
         """Return whether an array holds a value of each robot."""
@@ -74,7 +58,7 @@ class Memory:
         return [
             "streams = as_words(numbers)",
             *(["cells = as_integers(numbers)"] if self.integers else []),
-            *self._parts(arrays, lanes),
+            *(f"{name} = part({view}, {k * lanes}, {lanes})" for k, (name, view) in enumerate(arrays)),
         ]
 
     def own_lines(self, lanes: int, robots: int) -> list[str]:
@@ -86,17 +70,11 @@ class Memory:
             f"stride = {stride}",
             f"own_numbers = part(numbers, {self.team_size(lanes)}, {size})",
             *(["own_cells = as_integers(own_numbers)"] if self.own_integers else []),
-            *self._parts(arrays, lanes, size),
+            *(
+                f"{name} = part({view}, {k * lanes}, {size - k * lanes})"
+                for k, (name, view) in enumerate(arrays)
+            ),
         ]
-
-    def _parts(self, arrays: list[tuple[str, str]], lanes: int, end: int | None = None) -> list[str]:
-        """Return the lines that make views of arrays, up to an end or as long as each is; lists are one array each."""
-        lines, lengths = list[str](), Counter(of for of, _ in self.elements.values())
-        for k, (name, view) in enumerate(arrays):
-            of, place = self.elements.get(name, (name, 0))
-            size = lengths.get(of, 1) * lanes if end is None else end - k * lanes
-            lines += [] if place else [f"{of} = part({view}, {k * lanes}, {size})"]
-        return lines
 
 
 def _views(prefix: str, numbers: list[str], integers: list[str]) -> list[tuple[str, str]]:

@@ -96,14 +96,12 @@ class RolloutFunction:
 
     def at(self, array: str) -> str:
         """Return an array's element of the present lane and robot."""
-        return self.memory.element(array, "own + lane" if self.is_own(array) else "lane", self.lanes)
+        return f"{array}[own + lane]" if self.is_own(array) else f"{array}[lane]"
 
     def read(self, array: str, kind: Kind = Kind.NUMBER, index: Text | None = None) -> Text:
         """Return an array's value of the present lane and robot, or at an index; truths are kept as 0 and 1."""
-        if index is None:
-            return _as_read(Text(self.at(array)), kind)
-        element = self.memory.element(array, index.source, self.lanes)
-        return _as_read(Text(element, uses=index.uses), kind)
+        element = Text(self.at(array)) if index is None else Text(f"{array}[{index.source}]", uses=index.uses)
+        return _as_read(element, kind)
 
     def as_stored(self, text: Text, kind: Kind) -> Text:
         """Return a value as arrays keep it."""
@@ -148,29 +146,10 @@ class RolloutFunction:
         """The arrays of the slots that a later step reads."""
         read = {node.slot: node.level for node in needed(self.outputs) if node.operation == "slot"}
         return {
-            slot: self._kept_slot(slot, node.kind, read[slot])
+            slot: self.keep(slot.text(self.robots), node.kind, read[slot])
             for slot, node in self.episode.after.items()
             if slot in read
         }
-
-    def _kept_slot(self, slot: Slot, kind: Kind, level: Level) -> str:
-        """Add the array of a slot; elements of a state or of the world lie in one array for each list."""
-        if not slot.place or slot.name not in self._lists:
-            return self.keep(slot.text(self.robots), kind, level)
-        of, own = slot._replace(place=()).text(self.robots), self.looped and level in OWN
-        if (of, own) not in self._arrays:
-            self._arrays[of, own] = self.namer(of)
-        return self.memory.add_element(self.namer(slot.text(self.robots)), self._arrays[of, own], own=own)
-
-    @cached_property
-    def _lists(self) -> frozenset[str]:
-        environment = self.meaning.spec.environment
-        return frozenset((*environment.world, *environment.state))
-
-    @cached_property
-    def _arrays(self) -> dict[tuple[str, bool], str]:
-        """The arrays of lists, by what they are called and whether each robot has one."""
-        return {}
 
     @cached_property
     def outputs(self) -> list[Node]:
