@@ -98,7 +98,8 @@ def everything():
 
 
 def test_compiled_and_plain_results_are_the_same_bits():
-    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(Path(bbsd.__file__).parents[1])}
+    places = [Path(bbsd.__file__).parents[1], Path(__file__).parents[3]]
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(map(str, places))}
     plain = subprocess.run(
         [sys.executable, "-W", "error", __file__], env=environment, capture_output=True, text=True, check=True
     )
