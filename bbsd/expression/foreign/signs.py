@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.foreign.tokens import (
@@ -68,6 +69,8 @@ WORDS = {
 }
 """Words that have one other form here."""
 COMPARISONS = frozenset(["==", "!=", "<", ">", "<=", ">=", "+", "-", "*", "/", "%", "**"])
+CONDITIONS = ("excited", "ends", "expects")
+"""Keys whose value is a truth."""
 MEANINGS = {
     "==": "equality is written ==",
     "**": "a power is written **",
@@ -94,7 +97,7 @@ def assignment(text: str, key: str) -> Step | None:
     return Step(match.start("sign"), len(sign), message, f"write {new}", new, name == key or not key)
 
 
-def foreign_sign(text: str, _key: str) -> Step | None:
+def foreign_sign(text: str, key: str) -> Step | None:
     """Find a sign or a word that is written in another way here."""
     found = tokens(text)
     for at, token in enumerate(found):
@@ -104,7 +107,9 @@ def foreign_sign(text: str, _key: str) -> Step | None:
             return Step(token.start, len(token.text), f'there is no "{token.text}"', "write x + 1", None)
         new = SIGNS.get(token.text) if token.kind == "sign" else WORDS.get(token.text)
         if new and not (token.text == "=" and _names_an_argument(found, at)):
-            return _sign(text, token, new)
+            # `x = 3` as a whole value may set something, but for keys that hold a condition.
+            sets = token.text in ("=", ":=") and at == 1 and key not in CONDITIONS
+            return replace(_sign(text, token, new), is_certain=not sets)
     return None
 
 
@@ -210,6 +215,8 @@ def times(text: str, _key: str) -> Step | None:
             end = operand_end(found, at + 1)
             stop = found[end - 1].end if end else after.end
             new = f"{token.text} * {text[after.start : stop]}"
+            if not reads(spliced(text, token.start, stop, new)):
+                continue
             message = "a multiplication needs its sign"
             return Step(
                 token.start,
