@@ -267,7 +267,19 @@ def earlier(what: Writer) -> Writer:
 
 def drawn(draw: Draw, reach: Reach, depth: int) -> str:
     name = draw(st.sampled_from(["uniform", "normal"]))
-    return f"{name}({number(draw, reach, depth)}, {number(draw, reach, depth)})"
+    first, second = number(draw, reach, depth), number(draw, reach, depth)
+    if is_unchecked(draw, reach):
+        return f"{name}({first}, {second} + 0 * x)"
+    return f"uniform({ordered(first, second)})" if name == "uniform" else f"normal({first}, abs({second}))"
+
+
+def is_unchecked(draw: Draw, reach: Reach) -> bool:
+    """Whether a draw may be of impossible numbers: only of what changes in an episode, else it is a mistake."""
+    return "x" in reach.numbers and draw(st.booleans())
+
+
+def ordered(first: str, second: str) -> str:
+    return f"min({first}, {second}), max({first}, {second})"
 
 
 def drawn_again_and_again(draw: Draw, reach: Reach, depth: int) -> str:
@@ -278,11 +290,17 @@ def drawn_again_and_again(draw: Draw, reach: Reach, depth: int) -> str:
 
 
 def integers(draw: Draw, reach: Reach, depth: int) -> str:
-    return f"integers({whole(draw, reach, depth)}, {whole(draw, reach, depth)})"
+    first, second = whole(draw, reach, depth), whole(draw, reach, depth)
+    if is_unchecked(draw, reach):
+        return f"integers({first}, {second} + floor(0 * x))"
+    return f"integers({ordered(first, second)})"
 
 
 def chance(draw: Draw, reach: Reach, depth: int) -> str:
-    return f"chance({number(draw, reach, depth)})"
+    probability = number(draw, reach, depth)
+    if is_unchecked(draw, reach):
+        return f"chance({probability} + 0 * x)"
+    return f"chance(min(max({probability}, 0), 1))"
 
 
 def comparison(draw: Draw, reach: Reach, depth: int) -> str:
