@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[2]
     [
         "README.md",
         *(f"docs/{page}.md" for page in ("tutorial", "howto", "understanding", "export", "environments")),
+        *(f"docs/cookbook/{path.name}" for path in sorted((ROOT / "docs" / "cookbook").glob("*.md"))),
     ],
 )
 def test_a_document_shows_what_its_commands_print(name, tmp_path, request):

@@ -19,7 +19,7 @@ from tests.interpreter.made_up_designs import random_agents
 from tests.interpreter.made_up_outside import MadeUpLanes, MadeUpWorld, with_world_outside
 
 SPECS = Path(__file__).parents[2] / "specs"
-SHIPPED = sorted((*SPECS.glob("*.yaml"), *SPECS.glob("tasks/*.yaml")))
+SHIPPED = sorted((*SPECS.glob("*.yaml"), *SPECS.glob("tasks/*.yaml"), *SPECS.glob("everyday/*.yaml")))
 COMPILED = ("abstract", "object_lifting", "object_lifting_hand", "forager")  # the others would take minutes
 MADE_UP_TOO = ("BB125", "BB135", "BB141")
 """Mistakes that made-up specs may have: a division by zero, an element that is set twice, a draw of nothing."""

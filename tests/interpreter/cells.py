@@ -132,20 +132,24 @@ def covered(label: str, partition: Partition, constants: Mapping[str, Value]) ->
     names = labels(partition, constants)
     if label in names:
         return [names.index(label)]
-    low, high = interval(label)
-    spans = [interval(name) for name in names]
+    low, high = interval(label, constants)
+    spans = [interval(name, constants) for name in names]
     return [cell for cell, (start, end) in enumerate(spans) if low <= start and end <= high]
 
 
-def interval(label: str) -> tuple[float, float]:
-    """The numbers that a cell of `cut` covers, by its label."""
+def interval(label: str, constants: Mapping[str, Value]) -> tuple[float, float]:
+    """The numbers that a cell of `cut` covers, by its label, which may name constants."""
+
+    def number(bound: str) -> float:
+        return float(constants.get(bound, bound))
+
     match label.split():
         case ["below", high]:
-            return -inf, float(high)
+            return -inf, number(high)
         case ["from", low]:
-            return float(low), inf
+            return number(low), inf
         case [low, "to", high]:
-            return float(low), float(high)
+            return number(low), number(high)
     raise AssertionError(label)
 
 

@@ -61,10 +61,9 @@ def values_of_draw(draw: Node, constants: Constants) -> tuple[float, list[float]
     values = [constants.static(operand) for operand in draw.operands]
     match distribution, values:
         case "chance", [float(probability)]:
-            happens = min(max(probability, 0.0), 1.0) if probability == probability else 0.0  # noqa: PLR0124 - NaN
-            return 0.0, [1.0 - happens, happens]
+            return 0.0, [1.0 - probability, probability]
         case "integers", [float(first), float(last)] if first.is_integer() and last.is_integer():
-            count = int(max(last - first + 1.0, 1.0))
+            count = int(last - first + 1.0)
             if count > MAX_STARTS:
                 raise NotEnumerable(
                     f"a start is drawn from {count} values; at most {MAX_STARTS} starts are tried"

@@ -18,7 +18,11 @@ MUST_BE_THERE = "BBSD_REQUIRE_TARGETS"
 
 SHIPPED = sorted(
     str(path.relative_to(SPECS).with_suffix(""))
-    for path in [*SPECS.glob("*_hand.yaml"), *SPECS.glob("tasks/*_hand.yaml")]
+    for path in [
+        *SPECS.glob("*_hand.yaml"),
+        *SPECS.glob("tasks/*_hand.yaml"),
+        *SPECS.glob("everyday/*_hand.yaml"),
+    ]
 )
 
 ODD_WORDS = r"""
