@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from types import ModuleType
 
-from bbsd.kernel.cache import cache_folder, kernel_digest
+from bbsd.kernel.cache import cache_folder, cache_root, kernel_digest
 
 
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
@@ -22,8 +22,7 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
     names of the file and the module are `name`, an identifier, and a hash of all that determines the compiled code:
     the same source is the same file, and numba finds what it compiled before.
     """
-    digest = sha256(f"{kernel_digest()} {functions} {source}".encode()).hexdigest()
-    stem = f"{name}_{digest[:32]}"
+    stem = _stem(source, name, functions)
     module_name = stem if compiled else f"{stem}_plain"
     if module_name in sys.modules:
         return sys.modules[module_name]
@@ -33,6 +32,23 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
     if compiled:
         _compile(module, functions)
     return module
+
+
+def not_compiled(source: str, name: str, functions: tuple[str, ...]) -> list[str]:
+    """Return those functions of a source that are neither in memory nor in the cache: they will be compiled."""
+    stem = _stem(source, name, functions)
+    loaded, folder = sys.modules.get(stem), cache_root() / "compiled"
+    return [
+        each
+        for each in functions
+        if not getattr(getattr(loaded, each, None), "signatures", None)
+        and next(folder.glob(f"*/*/{stem}.{each}-*.nbi"), None) is None
+    ]
+
+
+def _stem(source: str, name: str, functions: tuple[str, ...]) -> str:
+    digest = sha256(f"{kernel_digest()} {functions} {source}".encode()).hexdigest()
+    return f"{name}_{digest[:32]}"
 
 
 def _write(path: Path, text: str) -> None:

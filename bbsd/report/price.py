@@ -27,10 +27,17 @@ def price_text(price: Price) -> str:
         "episodes": _episodes(price),
         "steps": f"{price.steps:,} at most, counted for each robot",
         "memory": f"about {price.bytes / 1e6:,.0f} MB",
+        "compiling": _compiling(price),
         "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs per episode, "
         f"{duration(price.starting + price.compiling)} to start, compile and draw",
     }
     return "\n".join([*_tables(price), "", *(f"{name:<14}{text}" for name, text in rows.items())])
+
+
+def _compiling(price: Price) -> str:
+    if price.to_compile == 0.0:
+        return "nothing: the kernels are in the cache"
+    return f"about {duration(price.to_compile)} by the size of the kernels, once: they are kept in the cache"
 
 
 def _episodes(price: Price) -> str:

@@ -27,6 +27,8 @@ RACED = 2 * FIRST_ROUND
 """Episodes of each candidate in the final race, by experience: many behave alike, most are out early."""
 SEARCHED = 5_000
 """Designs that a search holds in memory: a round's, its champions and copies of them."""
+PRACTISING = frozenset({"auto", "practice", "q"})
+"""The methods that call the kernel for practice."""
 NUMBER = 8
 """Bytes of a number."""
 
@@ -64,6 +66,8 @@ class Price:
     """Seconds beside the design itself, as given by the caller."""
     compiling: float
     """Seconds until the kernels run; less where they are in the cache."""
+    to_compile: float
+    """Seconds that compiling the kernels was estimated to take, by their size; 0 where they were in the cache."""
     breeding: float
     """Seconds of a generation beside the episodes of its agents."""
     drawing: float
@@ -83,8 +87,9 @@ def price(
     Times are processor times, so that they do not depend on what else the machine does. With several jobs, runs go side
     by side and threads share episodes.
     """
+    to_compile = problem.kernels.seconds_to_compile(practices=settings.method in PRACTISING)
     if settings.method != "paper":
-        return _price_of_search(problem, settings, seed, n_runs, jobs, starting)
+        return _price_of_search(problem, settings, seed, n_runs, jobs, starting, to_compile)
     processes = min(n_runs, jobs)
     sampled = replace(problem, jobs=jobs // processes)
     measured = sample(sampled, replace(settings, sharing="uniform"), fold(seed_key(seed), SAMPLE))
@@ -110,6 +115,7 @@ def price(
         bytes=(jobs if problem.is_stepped else processes) * (resident() + _bytes(problem, settings)),
         starting=starting,
         compiling=measured.compiling,
+        to_compile=to_compile,
         breeding=measured.generation(agents),
         drawing=drawing,
         microseconds=measured.episode * 1e6,
@@ -118,7 +124,13 @@ def price(
 
 
 def _price_of_search(
-    problem: Problem, settings: Settings, seed: int, n_runs: int, jobs: int, starting: float
+    problem: Problem,
+    settings: Settings,
+    seed: int,
+    n_runs: int,
+    jobs: int,
+    starting: float,
+    to_compile: float,
 ) -> Price:
     """Return the price of so many searches, from the first rounds of one."""
     processes = min(n_runs, jobs)
@@ -143,6 +155,7 @@ def _price_of_search(
         bytes=(jobs if problem.is_stepped else processes) * (resident() + SEARCHED * cells),
         starting=starting,
         compiling=measured.compiling,
+        to_compile=to_compile,
         breeding=0.0,
         drawing=drawing,
         microseconds=measured.episode * 1e6,

@@ -59,3 +59,23 @@ def test_a_rollout_that_is_uncertain_in_one_span_is_uncertain(monkeypatch):
     assert problem.kernels.run(rollout, 24)
     assert not problem.kernels.run(lambda *_: None, 24)
     assert sorted(spans) == problem.kernels._spans(24)
+
+
+def test_compiling_takes_as_long_as_the_text_is_and_no_time_once_it_is_in_the_cache(monkeypatch, tmp_path):
+    monkeypatch.setenv("BBSD_CACHE_DIR", str(tmp_path))
+    problem = problem_of(RICH, lanes=3, compiled=True)
+    whole = problem.kernels.seconds_to_compile()
+    texts = kernels.kernel_source(problem.meaning, problem.tables, 3, kernels.BATCHES).split("\ndef ")[1:]
+    assert whole == kernels.SECONDS_TO_BEGIN + sum(map(len, texts)) * kernels.SECONDS_A_CHARACTER
+    assert problem.kernels.seconds_to_compile(practices=True) > whole
+    lived(problem)
+    assert problem.kernels.seconds_to_compile() == (
+        kernels.SECONDS_TO_BEGIN + len(texts[0]) * kernels.SECONDS_A_CHARACTER
+    )
+    agents = random_agents(problem, 5, N_AGENTS)
+    problem.assemble(agents.pools, agents.members, 1).episode(keys(9, 0, N_AGENTS), agents.structures)
+    assert problem.kernels.seconds_to_compile() == 0.0
+
+
+def test_what_runs_as_plain_python_is_not_compiled():
+    assert problem_of(RICH).kernels.seconds_to_compile() == 0.0

@@ -91,6 +91,14 @@ def test_it_is_shown_to_people_and_programs(price):
     assert all(table.behavior in text for table in price.tables)
 
 
+def test_what_compiling_takes_is_told_until_it_is_in_the_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("BBSD_CACHE_DIR", str(tmp_path / "cache"))
+    first, again = (api.price(SPEC, set=["environment.steps=17"]) for _ in range(2))
+    assert first.to_compile > 0.0 == again.to_compile
+    assert "by the size of the kernels" in price_text(first)
+    assert "compiling     nothing: the kernels are in the cache" in price_text(again)
+
+
 def test_a_spec_without_holes_has_no_price():
     with pytest.raises(api.NothingToDesign):
         api.price(Path(__file__).parents[3] / "specs" / "object_lifting_hand.yaml")
