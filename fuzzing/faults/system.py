@@ -124,7 +124,7 @@ class System:
         if self._fault == "broken":
             raise self._error(errno.EIO, name, path)
         if self._fault == "power":
-            for file, size in self._on_disk.items():
+            for file, size in list(self._on_disk.items()):  # threads go on meanwhile
                 if os.path.isfile(file) and os.stat(file).st_size > size:  # noqa: PTH113, PTH116
                     os.truncate(file, size)
         os.kill(os.getpid(), signal.SIGKILL)
