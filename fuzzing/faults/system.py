@@ -7,6 +7,7 @@ import io
 import os
 import signal
 from pathlib import Path
+from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ class System:
         self._paths: dict[int, str] = {}
         self._on_disk: dict[str, int] = {}
         """How much of each file has reached the disk."""
+        self._one_at_a_time = RLock()  # else power could go between a thread's call and the note of it
 
     def install(self) -> None:
         """Take the place of the system's functions in this process."""
@@ -50,13 +52,14 @@ class System:
     def _open(self, path: Any, flags: int, *arguments: Any, **options: Any) -> int:  # noqa: ANN401
         if not self._mine(path):
             return int(self._real["open"](path, flags, *arguments, **options))
-        size = os.stat(path).st_size if os.path.isfile(path) else 0  # noqa: PTH113, PTH116
-        self._called("open" if flags & WRITES else "open to read", str(path))
-        descriptor: int = self._real["open"](path, flags, *arguments, **options)
-        self._paths[descriptor] = str(path)
-        if flags & WRITES:
-            self._on_disk.setdefault(str(path), size)
-        return descriptor
+        with self._one_at_a_time:
+            size = os.stat(path).st_size if os.path.isfile(path) else 0  # noqa: PTH113, PTH116
+            self._called("open" if flags & WRITES else "open to read", str(path))
+            descriptor: int = self._real["open"](path, flags, *arguments, **options)
+            self._paths[descriptor] = str(path)
+            if flags & WRITES:
+                self._on_disk.setdefault(str(path), size)
+            return descriptor
 
     def _close(self, descriptor: int) -> None:
         self._paths.pop(descriptor, None)
@@ -64,7 +67,8 @@ class System:
 
     def _stream(self, file: Any, mode: str = "r", *arguments: Any, **options: Any) -> Any:  # noqa: ANN401
         if self._mine(file) and set(mode) & set("wax+"):
-            self._called("open", str(file))
+            with self._one_at_a_time:
+                self._called("open", str(file))
         return self._real_stream(file, mode, *arguments, **options)
 
     def _by_descriptor(self, name: str) -> Callable[..., Any]:
@@ -80,10 +84,11 @@ class System:
                 if name == "write"
                 else None
             )
-            self._called(name, path, half)
-            result = real(descriptor, *arguments)
-            if name == "fsync" and path in self._on_disk:
-                self._on_disk[path] = os.fstat(number).st_size
+            with self._one_at_a_time:
+                self._called(name, path, half)
+                result = real(descriptor, *arguments)
+                if name == "fsync" and path in self._on_disk:
+                    self._on_disk[path] = os.fstat(number).st_size
             return result
 
         return call
@@ -94,12 +99,16 @@ class System:
         def call(path: Any, *arguments: Any, **options: Any) -> Any:  # noqa: ANN401
             if not self._mine(path):
                 return real(path, *arguments, **options)
-            self._called(name, str(path))
-            result = real(path, *arguments, **options)
-            if name in ("replace", "rename"):
-                self._on_disk[str(arguments[0])] = self._on_disk.pop(str(path), os.stat(arguments[0]).st_size)  # noqa: PTH116
-            elif name == "unlink":
-                self._on_disk.pop(str(path), None)
+            with self._one_at_a_time:
+                self._called(name, str(path))
+                result = real(path, *arguments, **options)
+                if name in ("replace", "rename"):
+                    self._on_disk[str(arguments[0])] = self._on_disk.pop(
+                        str(path),
+                        os.stat(arguments[0]).st_size,  # noqa: PTH116
+                    )
+                elif name == "unlink":
+                    self._on_disk.pop(str(path), None)
             return result
 
         return call
@@ -124,7 +133,7 @@ class System:
         if self._fault == "broken":
             raise self._error(errno.EIO, name, path)
         if self._fault == "power":
-            for file, size in list(self._on_disk.items()):  # threads go on meanwhile
+            for file, size in self._on_disk.items():
                 if os.path.isfile(file) and os.stat(file).st_size > size:  # noqa: PTH113, PTH116
                     os.truncate(file, size)
         os.kill(os.getpid(), signal.SIGKILL)
