@@ -44,7 +44,7 @@ def check(folder: Path) -> None:
     environment = Environment.new(folder / "environment")
     step("without extras", lambda: use_without_extras(built, environment, use))
     step("types", lambda: check_types(built, environment, tree, use))
-    step("demo and tests", lambda: run_tests(built, environment, use))
+    step("demo and tests", lambda: run_tests(built, environment, tree, use))
     print(f"{'in all':22} {time.monotonic() - started:5.0f} s")
 
 

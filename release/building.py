@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from release.commands import ROOT, run
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
     from pathlib import Path
 
 
@@ -33,12 +32,11 @@ def tracked_files() -> tuple[str, ...]:
     return tuple(name for name in names if name and (ROOT / name).is_file())
 
 
-def copy_tracked(target: Path, without: Collection[str] = ()) -> Path:
-    """Copy the tracked files into a folder, without some folders of the root, and return it."""
+def copy_tracked(target: Path) -> Path:
+    """Copy the tracked files into a folder, and return it."""
     for name in tracked_files():
-        if name.partition("/")[0] not in without:
-            (target / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / name, target / name)
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, target / name)
     return target
 
 

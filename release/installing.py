@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from release.building import copy_tracked
 from release.commands import ROOT, CheckFailed, run, tool
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def require_mistakes(checker: tuple[str | Path, ...], folder: Path) -> None:
         raise CheckFailed(f"{checker[0]} finds no mistake in mistakes.py")
 
 
-def run_tests(built: Built, environment: Environment, folder: Path) -> str:
+def run_tests(built: Built, environment: Environment, copied: Path, folder: Path) -> str:
     """Run the demo and the quick tests against the installed wheel, beside all of the checkout but the package.
 
     Returns:
@@ -119,7 +119,8 @@ def run_tests(built: Built, environment: Environment, folder: Path) -> str:
         CheckFailed: one of them fails, or another bbsd than the installed one is imported.
     """
     environment.install(f"{built.wheel}[test]")
-    tree = copy_tracked(folder / "outside", without=("bbsd",))
+    tree = folder / "outside"
+    shutil.copytree(copied, tree, ignore=lambda at, _: ["bbsd", "build"] if at == str(copied) else [])
     environment.require_installed(tree, environment.folder)
     demo = ("design", "specs/object_lifting.yaml", "--plot", "--quiet")
     run(environment.program("bbsd"), *demo, folder=tree, more=own_cache(folder))
