@@ -48,7 +48,10 @@ class Correction:
 def corrected_lines(correction: Correction, lines: Lines) -> list[str]:
     """Return the lines that a correction changes as they should be, without those that it takes away."""
     corrected = []
-    for first, last, edits in _blocks(correction.edits):
+    for first, last, edits in _blocks(edit for edit in correction.edits if not _takes_lines_away(edit)):
+        if len(edits) == 1 and _adds_lines(edits[0], lines):
+            corrected += [line for line in edits[0].text.split("\n") if line.strip()]
+            continue
         if last - first >= MOST_LINES:
             return []
         text, starts = "", {}
@@ -61,6 +64,19 @@ def corrected_lines(correction: Correction, lines: Lines) -> list[str]:
             text = text[:start] + edit.text + text[end:]
         corrected += [line for line in text.split("\n") if line.strip()]
     return corrected
+
+
+def _takes_lines_away(edit: Edit) -> bool:
+    """Return whether an edit takes whole lines away, and nothing else."""
+    return not edit.text and edit.column == edit.end_column == 1 and edit.end_line > edit.line
+
+
+def _adds_lines(edit: Edit, lines: Lines) -> bool:
+    """Return whether an edit adds whole lines, before a line or behind one, and changes none."""
+    if (edit.line, edit.column) != (edit.end_line, edit.end_column):
+        return False
+    is_before = edit.column == 1 and edit.text.endswith("\n")
+    return is_before or (edit.column == len(lines.line(edit.line)) + 1 and edit.text.startswith("\n"))
 
 
 def _blocks(edits: Iterable[Edit]) -> Iterator[tuple[int, int, list[Edit]]]:

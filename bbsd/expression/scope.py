@@ -12,7 +12,7 @@ from bbsd.expression.syntax.mistakes import WHOLE, Mistake, TooManyMistakesError
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
-    from bbsd.expression.syntax.mistakes import Rewriting
+    from bbsd.expression.syntax.mistakes import Addition, Rewriting
     from bbsd.expression.syntax.tree import Expr, Span
 
 MAX_MISTAKES = 200
@@ -144,10 +144,14 @@ class Findings:
         message: str,
         span: Span = WHOLE,
         advice: str = "",
-        correction: Rewriting | None = None,
+        correction: Rewriting | Addition | None = None,
     ) -> None:
         """Add a mistake. Raises TooManyMistakesError with the last of `MAX_MISTAKES`."""
-        self.mistakes[path, Mistake(code, message, span, advice, correction)] = None
+        self.add(path, Mistake(code, message, span, advice, correction))
+
+    def add(self, path: Path, mistake: Mistake) -> None:
+        """Add a mistake as it is; as `report`."""
+        self.mistakes[path, mistake] = None
         if len(self.mistakes) >= MAX_MISTAKES:
             raise TooManyMistakesError
 
@@ -239,7 +243,12 @@ class Scope:
         return float(value_of(node)) if node.literal else self.static(node)
 
     def mistake(
-        self, code: str, message: str, span: Span, advice: str = "", correction: Rewriting | None = None
+        self,
+        code: str,
+        message: str,
+        span: Span,
+        advice: str = "",
+        correction: Rewriting | Addition | None = None,
     ) -> Node:
         """Report a mistake and return the unknown value."""
         self.findings.report(self.path, code, message, span, advice, correction)

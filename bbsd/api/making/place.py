@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,7 +13,7 @@ from bbsd.api.given.arguments import Assignments, BadArgument, assignments
 from bbsd.api.given.sources import DICT, TEXT, is_path, path_of
 from bbsd.api.results import Designed, NothingToDesign
 from bbsd.runs.storage.choosing import RUNS, folder_to_resume, new_folder
-from bbsd.runs.storage.finished import design_file, way_on
+from bbsd.runs.storage.finished import NoDesign, design_file, is_of_run, spec_inside, way_on
 from bbsd.runs.storage.folder import Folder
 
 if TYPE_CHECKING:
@@ -83,7 +84,13 @@ def former_of(spec: AnySpec, *, goes_on: bool) -> Folder | None:
         path = path if path is not None and path.is_dir() else None
     if path is None or goes_on:
         return None if path is None else Folder(path)
-    design_file(path)  # raises where it is no run, or has no answer: with the way to go on
+    if not is_of_run(path):
+        advice = "give the file of a spec, or the folder that bbsd design wrote"
+        if example := spec_inside(path):
+            command = f"bbsd design {shlex.quote(str(example))}"
+            advice = f"such as: {command}; --resume and --more take the folder of a run as well"
+        raise NoDesign(f"{path} is a folder; design needs the file of one spec", advice)
+    design_file(path)  # raises where it has no answer: with the way to go on
     raise NothingToDesign(f"{path} is the folder of a run that is finished", _ways_on(path))
 
 

@@ -9,6 +9,7 @@ from bbsd.expression.syntax.tree import Span
 
 if TYPE_CHECKING:
     from bbsd.errors import Correction
+    from bbsd.expression.scope import Path
 
 WHOLE = Span(0, 0)
 """The span of a whole value, however it is written."""
@@ -34,20 +35,37 @@ class Rewriting:
     span: Span = WHOLE
     is_certain: bool = True
     """Whether there is one reading of what was meant."""
+    at: Path | None = None
+    """The path of the value that is rewritten, where it is not the one that the mistake is told at."""
+
+
+@dataclass(frozen=True, slots=True)
+class Addition:
+    """An entry, `key: value`, that a block mapping lacks: its first one, or the one behind the entry at `behind`.
+
+    It is never certain, as its value is the author's to choose.
+    """
+
+    text: str
+    mapping: Path
+    behind: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
     """A diagnosis relative to the text of one expression, to a whole value, or to its key.
 
-    Its correction is relative to the same, or already placed in the file.
+    Its correction is relative to the same, or already placed in the file. `seen_at` and `also_at` are paths of what the
+    message and the advice speak of; the lines on which they stand are told behind each.
     """
 
     code: str
     message: str
     span: Span = WHOLE
     advice: str = ""
-    correction: Rewriting | Correction | None = None
+    correction: Rewriting | Addition | Correction | None = None
+    seen_at: tuple[Path, ...] = ()
+    also_at: tuple[Path, ...] = ()
 
 
 class ExpressionError(ValueError):

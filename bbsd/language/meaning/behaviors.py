@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import count
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -11,8 +12,9 @@ from bbsd.expression import elaboration
 from bbsd.expression.forms import kind_by_form
 from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Named
-from bbsd.expression.syntax.mistakes import KEY, WHOLE
-from bbsd.expression.syntax.tree import Name, Span
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import Call, Name, Span
 from bbsd.language.field_types import Expression
 from bbsd.language.meaning.outside.exchange import names_outside, size_of_field
 from bbsd.language.meaning.partitions import (
@@ -39,7 +41,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.moments import Moment
     from bbsd.language.meaning.names import Names
     from bbsd.language.meaning.tables.table import Inputs, Table
-    from bbsd.language.models import Behavior, PartitionText
+    from bbsd.language.models import Behavior, Environment, PartitionText
 
 MAX_ACTIONS = 200
 """Actions of a behavior: a table's cell is a byte, and a table as text has a character for each action."""
@@ -185,6 +187,29 @@ def _kind_by_form(sensor: PartitionText | None, names: Names) -> Kind:
     return kind_by_form(sensor.tree, names.definitions) if isinstance(sensor, Expression) else Kind.UNKNOWN
 
 
+def _without_cells(
+    name: str, environment: Environment, *, is_list: bool
+) -> tuple[str, Span, str, Rewriting | None]:
+    """Return what is said of an input that is a number or a list; the sensor that cuts it already is what to write."""
+    what, cut = ("a list", f"{name}[0]") if is_list else ("a number", name)
+    message = f"an input has cells, and {name} is {what} without any"
+    for sensor, partition in environment.sensors.items():
+        tree = None if isinstance(partition, dict) else partition.tree
+        if (
+            isinstance(tree, Call)
+            and tree.function in ("cut", "values")
+            and render(tree.arguments[0]) == name
+        ):
+            return message, WHOLE, f"{sensor} is {name} cut into cells", Rewriting(sensor, is_certain=False)
+    taken = {*environment.sensors, *environment.state, *environment.world, *environment.definitions}
+    new = next(word for n in count(1) if (word := f"{name}_zone{n if n > 1 else ''}") not in taken)
+    advice = (
+        f"add a sensor under another name, {new}: cut({cut}, ...) or {new}: values({cut}, first, last), "
+        f"and write {new} here"
+    )
+    return message, WHOLE, advice, None
+
+
 def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, robot: int) -> Partition | None:
     """Return the partition that a sensor is; a truth, sensed or in the robot's state, is one of two cells.
 
@@ -213,9 +238,8 @@ def _shared_partition(name: str, decision: Moment, scope: Scope, path: Path, rob
         value.kind,
         _kind_by_form(environment.sensors.get(name), names),
     ):
-        what, cut = ("a list", f"{name}[0]") if isinstance(value, tuple) else ("a number", name)
-        advice = f"cut it: {name}: cut({cut}, ...) or {name}: values({cut}, first, last)"
-        message = f"an input needs a partition, and {name} is {what}"
-        names.findings.report(path, "BB030", message, WHOLE, advice)
+        names.findings.report(
+            path, "BB030", *_without_cells(name, environment, is_list=isinstance(value, tuple))
+        )
         return None
     return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, names.graph.apply("cell_of", value))

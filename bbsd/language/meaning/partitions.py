@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import count, pairwise
 from typing import TYPE_CHECKING
 
 from bbsd.expression import elaboration
@@ -11,7 +11,7 @@ from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.naming import one_reading
 from bbsd.expression.scope import Named
-from bbsd.expression.syntax.mistakes import KEY, Rewriting
+from bbsd.expression.syntax.mistakes import KEY, Addition, Rewriting
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Call, Expr, Name, Span
 from bbsd.language.meaning.proofs.coverage import covers_everything
@@ -19,7 +19,7 @@ from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from bbsd.expression.graph import Graph
     from bbsd.expression.scope import Path, Scope
@@ -102,7 +102,7 @@ def _truth(expression: Expression, scope: Scope) -> Partition | None:
         what = "a list" if isinstance(value, tuple) else "a number"
         advice = f"cut it: cut({expression.text}, ...) or values({expression.text}, first, last), or write a condition"
         scope.mistake(
-            "BB030", f"an input needs a partition, and this is {what}", expression.tree.span, advice
+            "BB030", f"an input has cells, and this is {what} without any", expression.tree.span, advice
         )
         return None
     return None if value.kind is Kind.UNKNOWN else Partition(TRUTH_CELLS, scope.graph.apply("cell_of", value))
@@ -193,6 +193,12 @@ def cells_of_numbers(number: Node, first: int, last: int, graph: Graph) -> Parti
     return Partition(Numbers(first, last), graph.apply("clamp_index", offset, data=last - first))
 
 
+def _words_for_the_rest(n_others: int) -> Iterator[str]:
+    """Yield names for a cell in which none of the others holds."""
+    yield from ["neither", "rest"] if n_others == 2 else ["rest"]
+    yield from (f"rest_{number}" for number in count(2))
+
+
 def _named_cells(
     conditions_by_label: dict[str, Expression], scope: Scope, path: Path, robot: int | None
 ) -> Partition | None:
@@ -215,10 +221,12 @@ def _named_cells(
     if any(node.kind is Kind.UNKNOWN for node in nodes):
         return None
     if not final and not covers_everything(nodes, scope.graph, scope.size):
-        advice = "write the last cell's condition as otherwise"
-        whole.at((*path, labels[-1])).mistake(
-            "BB032", "these cells do not provably cover everything", expressions[-1].tree.span, advice
-        )
+        message = f"{path[-1]} has no cell where none of {', '.join(labels)} holds"
+        rest = next(word for word in _words_for_the_rest(len(labels)) if word not in labels)
+        last, span = labels[-1], expressions[-1].tree.span
+        advice = f"add a last cell for the rest; write {last}: {OTHERWISE} only if the rest counts as {last}"
+        added = Addition(f"{rest}: {OTHERWISE}", path, last)
+        whole.at((*path, last)).mistake("BB032", message, span, advice, added)
         return None
     graph = scope.graph
     index = graph.cell(len(labels) - 1)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.errors import Correction
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting, characters_of_key
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Rewriting, characters_of_key
+from bbsd.language.meant.layout import begins_line, column
 from bbsd.language.validation import child
 from bbsd.text import read
-from bbsd.text.nodes import Scalar, Sequence
+from bbsd.text.nodes import Mapping, Scalar, Sequence
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,14 +29,41 @@ class Placing:
     def __init__(self, files: Lineage) -> None:
         self._files, self._left = files, MAX_CHARACTERS
 
-    def placed(self, correction: Rewriting | Correction | None, path: Path) -> Correction | None:
+    def placed(self, correction: Rewriting | Addition | Correction | None, path: Path) -> Correction | None:
         """Return a correction with its edits; None where the file would not then say what is meant."""
-        if not isinstance(correction, Rewriting):
+        if correction is None or isinstance(correction, Correction):
             return correction
+        told_in = self._files.document(path)
+        path = correction.mapping if isinstance(correction, Addition) else correction.at or path
         document = self._files.document(path)
         self._left -= len(document.source.text)
+        if document is not told_in:
+            return None
+        if isinstance(correction, Addition):
+            added = _added(correction, document) if self._left >= 0 else None
+            return None if added is None else Correction((added,), is_certain=False)
         edits = _edits(correction, path, document) if self._left >= 0 else None
         return None if edits is None else Correction((edits,), correction.is_certain)
+
+
+def _added(addition: Addition, document: Document) -> Edit | None:
+    """Return the edit that gives a block mapping another entry, on a line of its own."""
+    mapping, source = document.node(addition.mapping), document.source
+    if not isinstance(mapping, Mapping) or mapping.flow or not mapping.entries:
+        return None
+    key = next(iter(mapping.entries.values())).key
+    if not begins_line(source, key.start):
+        return None
+    if not addition.behind:
+        start = source.line_start(key.start)
+        edit = source.edit(start, start, f"{' ' * column(source, key.start)}{addition.text}\n")
+    else:
+        entry = mapping.entries.get(addition.behind)
+        if entry is None or not isinstance(entry.value, Scalar) or entry.value.style in ("|", ">"):
+            return None
+        end = source.line_end(entry.value.end)
+        edit = source.edit(end, end, f"\n{' ' * column(source, key.start)}{addition.text}")
+    return edit if _is_readable(document, [edit]) else None
 
 
 def _edits(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:

@@ -21,6 +21,8 @@ SPEC, VISITS = "spec.yaml", "visits.json"
 """The spec as it was when the design began, and how often the cells of its design were asked."""
 PART = re.compile(r"run-[1-9][0-9]*|rival-.+")
 """Names of folders that are parts of a design's."""
+SPEC_BEGINS, MOST_OF_A_BEGINNING = re.compile(rb"^bbsd *:", re.MULTILINE), 10_000
+"""The line that every spec has, and the bytes in which it is searched."""
 MOST_NAMED = 3
 """Runs inside a folder that are named, at most."""
 
@@ -49,6 +51,23 @@ def design_file(path: Path) -> Path:
         f"{path} is a folder, and not that of a run: a run has the files {ARCHITECTURE} and {RUN_FILE}",
         _other_choices(path),
     )
+
+
+def is_of_run(path: Path) -> bool:
+    """Return whether a folder is that of a run, with an answer or without one."""
+    return (path / ARCHITECTURE).is_file() or (path / RUN_FILE).is_file()
+
+
+def spec_inside(path: Path) -> Path | None:
+    """Return a spec in a folder, in the order of their names; None where it has none."""
+    for file in sorted(path.glob("*.y*ml")):
+        try:
+            content = read_regular(file, MOST_OF_A_BEGINNING)
+        except (OSError, ValueError):
+            continue
+        if SPEC_BEGINS.search(content):
+            return file
+    return None
 
 
 def run_content(path: Path) -> dict[str, Any]:

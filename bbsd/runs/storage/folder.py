@@ -226,4 +226,5 @@ def _agrees(content: Mapping[str, Any], expected: Mapping[str, Any]) -> bool:
 
 def not_empty_text(path: Path) -> str:
     """Return what is said of a folder that is not empty."""
-    return f"{path} is not empty; nothing is overwritten: choose another --out, or continue it with --resume"
+    choice = ", or continue it with --resume" if (path / RUN_FILE).is_file() else ""
+    return f"{path} is not empty; nothing is overwritten: choose another --out{choice}"

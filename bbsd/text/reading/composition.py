@@ -119,10 +119,26 @@ def _document(reading: _Reading) -> Mapping:
     root = _node(reading, event, 1)
     next(reading.events)  # the document's end
     if (more := next(reading.events)).kind == "document":
-        reading.report("BB015", "a second document begins here", more, "keep each spec in a file of its own")
+        reading.mistakes.append(_second_document(reading.source, more))
     if isinstance(root, Mapping):
         return root
     raise _RefusedError(_not_a_mapping(reading, root, event))
+
+
+def _second_document(source: Source, event: Event) -> Diagnosis:
+    """Return the mistake of a second document: another spec, or the rest of this one, which a line cuts off."""
+    place, rest = source.place(event.start, event.end), source.text[event.start :]
+    if not rest.startswith("---"):
+        return Diagnosis("BB015", "a second document begins here", place, "give each spec a file of its own")
+    message = '"---" begins a second document, and a spec is one'
+    if re.search(r"^bbsd *:", rest, re.MULTILINE):
+        return Diagnosis("BB015", message, place, "give what follows a file of its own")
+    advice = "remove this line (or, if what follows is another spec, give it a file of its own)"
+    line, line_break, _ = rest.partition("\n")
+    if line.strip() != "---" or not line_break:
+        return Diagnosis("BB015", message, place, advice)
+    edit = source.edit(event.start, event.start + len(line) + 1, "")
+    return Diagnosis("BB015", message, place, advice, Correction((edit,), is_certain=False))
 
 
 def _not_a_mapping(reading: _Reading, root: Node, event: Event) -> Diagnosis:
@@ -137,26 +153,28 @@ def _node(reading: _Reading, event: Event, depth: int, longest: int = MAX_TEXT) 
         return _alias(reading, event, depth, longest)
     reading.count(event, _size(event), depth)
     if event.tag is not None:
-        negated = event.tag.lstrip("!") if event.tag.lstrip("!").isidentifier() else "..."
-        advice = f"remove it; if an expression is meant, write not {negated}"
-        reading.mistakes.append(
-            Diagnosis(
-                "BB009",
-                f'a spec has no tags such as "{event.tag}"',
-                reading.source.place(event.start, event.end),
-                advice,
-                _negation(reading.source, event),
-            )
-        )
+        reading.mistakes.append(_tag(reading.source, event, event.tag))
     if event.anchor is None:
         return _unanchored(reading, event, depth, longest)
     return _anchored(reading, event, event.anchor, depth, longest)
 
 
-def _negation(source: Source, event: Event) -> Correction | None:
-    """Return the correction of `!docked`, which YAML takes for a tag."""
-    match = re.compile(r"!\s*(?=[A-Za-z(])").match(source.text, event.start)
-    return Correction((source.edit(event.start, match.end(), "not "),)) if match else None
+NEGATED = re.compile(
+    r"!\s*(?=[a-z_(][\w.()\[\]]*[ \t]*(?:$|#|and\b|or\b|if\b|[-+*/%<>=!&|?)]))", re.MULTILINE
+)
+"""The sign of `!docked` and of what may follow it in an expression."""
+
+
+def _tag(source: Source, event: Event, tag: str) -> Diagnosis:
+    """Return the mistake of a tag, which where it looks like `!docked` is the sign of other languages for not."""
+    place, match = source.place(event.start, event.end), NEGATED.match(source.text, event.start)
+    if match is None:
+        advice = "remove it; if an expression is meant, write not ..."
+        return Diagnosis("BB009", f'a spec has no tags such as "{tag}"', place, advice)
+    sign = source.place(event.start, event.start + 1)
+    correction = Correction((source.edit(event.start, match.end(), "not "),))
+    advice = f'write not (for YAML, "{tag}" is a tag)'
+    return Diagnosis("BB009", 'there is no "!" in expressions', sign, advice, correction)
 
 
 def _unanchored(reading: _Reading, event: Event, depth: int, longest: int) -> Scalar | Sequence | Mapping:

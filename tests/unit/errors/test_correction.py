@@ -55,3 +55,9 @@ def test_edits_are_carried_out_together() -> None:
     edits = (Edit(1, 1, 1, 1, "# first\n"), Edit(2, 6, 2, 8, "and"))
     assert SOURCE.edited(edits).text == "# first\na: 1\nb: x and y\nc: 3\n"
     assert SOURCE.edit(10, 12, "and") == Edit(2, 6, 2, 8, "and")
+
+
+def test_of_lines_that_are_added_or_taken_away_no_other_is_shown() -> None:
+    assert corrected_lines(Correction((Edit(1, 5, 1, 5, "\n  more"),)), SOURCE) == ["  more"]
+    assert corrected_lines(Correction((Edit(2, 1, 2, 1, "  more\n"),)), SOURCE) == ["  more"]
+    assert corrected_lines(Correction((Edit(2, 1, 3, 1, ""),)), SOURCE) == []

@@ -85,7 +85,7 @@ behaviors: {stop: {inputs: [tilted, lit]}}
 
 @pytest.mark.parametrize(
     ("listed", "message"),
-    [("height", "an input needs a partition, and height is a number"),
+    [("height", "an input has cells, and height is a number without any"),
      ("wind", "stop uses wind of the world; a behavior knows only its own robot's state and sensors"),
      ("lead", "lead is a definition; inputs lists sensors, and truths of the robot's state"),
      ("goal", "goal is a constant; inputs lists sensors, and truths of the robot's state"),

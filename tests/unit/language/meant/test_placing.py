@@ -27,3 +27,21 @@ def corrected(part: str) -> str:
 )
 def test_a_correction_gives_a_spec_without_the_mistake(part: str, line: str) -> None:
     assert corrected(part).replace("'", "") == line
+
+
+CELLS = "environment:\n  sensors:\n    place:\n      low: height < 1\n      high: height > 2\n"
+
+
+def test_an_entry_that_is_lacking_is_added_behind_another() -> None:
+    assert corrected(CELLS) == "neither: otherwise"
+
+
+def test_a_name_in_use_is_not_added_again() -> None:
+    assert corrected(CELLS + "      rest: height == 1.5\n") == "rest_2: otherwise"
+
+
+def test_the_sensor_that_cuts_a_number_is_what_to_write_for_it() -> None:
+    part = (
+        "environment:\n  sensors:\n    band: cut(height, 2, 3)\nbehaviors:\n  stop:\n    inputs: [height]\n"
+    )
+    assert corrected(part) == "inputs: [band]"

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from bbsd.runs.storage.finished import NoDesign, design_file, run_content
+from bbsd.runs.storage.finished import NoDesign, design_file, is_of_run, run_content, spec_inside
 
 
 @pytest.fixture
@@ -83,3 +83,13 @@ def test_a_part_of_a_design_names_the_design(run):
     with pytest.raises(NoDesign) as raised:
         design_file(folder / "run-2")
     assert raised.value.advice.startswith(f"it is one of the runs of {folder}: give that folder")
+
+
+def test_a_spec_is_found_in_a_folder_of_specs(tmp_path):
+    (tmp_path / "a.yaml").write_text("other: 1\n", encoding="utf-8")
+    assert spec_inside(tmp_path) is None
+    (tmp_path / "b.yaml").write_text("# a task\nbbsd: 1\n", encoding="utf-8")
+    assert spec_inside(tmp_path) == tmp_path / "b.yaml"
+    assert not is_of_run(tmp_path)
+    (tmp_path / "run.json").write_text("{}", encoding="utf-8")
+    assert is_of_run(tmp_path)
