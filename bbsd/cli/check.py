@@ -117,6 +117,7 @@ def _checked(spec: Path, fixing: Fixing) -> "Checked":
     from bbsd.report.checked import Checked
 
     made: tuple[Made, ...] = ()
+    is_written = fixing is not Fixing.SHOWN
     try:
         if fixing is Fixing.NO:
             loaded = load(spec)
@@ -124,8 +125,8 @@ def _checked(spec: Path, fixing: Fixing) -> "Checked":
             source, made = _fixed(spec, fixing)
             loaded = load_source(source)
     except SpecError as error:
-        return Checked(str(spec), error.diagnoses, error, None, made)
-    return Checked(str(spec), loaded.warnings, loaded.lineage.error(()), loaded.meaning, made)
+        return Checked(str(spec), error.diagnoses, error, None, made, is_written)
+    return Checked(str(spec), loaded.warnings, loaded.lineage.error(()), loaded.meaning, made, is_written)
 
 
 def _fixed(spec: Path, fixing: Fixing) -> "tuple[Source, tuple[Made, ...]]":

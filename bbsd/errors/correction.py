@@ -43,14 +43,43 @@ class Correction:
 
     edits: tuple[Edit, ...]
     is_certain: bool = True
+    below: int = 0
+    """The line of the key whose block is changed, which is shown above it; 0 where none is."""
 
 
-def corrected_lines(correction: Correction, lines: Lines) -> list[str]:
-    """Return the lines that a correction changes as they should be, without those that it takes away."""
-    corrected = []
+@dataclass(frozen=True, slots=True)
+class CorrectedLine:
+    """A line as it should be, and its number where no line of the text before it is shown."""
+
+    text: str
+    number: int = 0
+
+
+def corrected_lines(correction: Correction, lines: Lines) -> list[CorrectedLine]:
+    """Return the lines that a correction changes as they should be, without those that it takes away.
+
+    The first one, and each that does not stand behind the one before, has its number.
+    """
+    blocks = _corrected_blocks(correction, lines)
+    if correction.below and blocks:
+        blocks.insert(0, (correction.below, correction.below, [lines.line(correction.below)]))
+    corrected: list[CorrectedLine] = []
+    former = None
+    for first, last, texts in blocks:
+        is_apart = former is None or any(lines.line(number).strip() for number in range(former + 1, first))
+        corrected += [
+            CorrectedLine(text, first if at == 0 and is_apart else 0) for at, text in enumerate(texts)
+        ]
+        former = last
+    return corrected
+
+
+def _corrected_blocks(correction: Correction, lines: Lines) -> list[tuple[int, int, list[str]]]:
+    """Return the first and the last line of each block of a correction, and its lines as they should be."""
+    blocks: list[tuple[int, int, list[str]]] = []
     for first, last, edits in _blocks(edit for edit in correction.edits if not _takes_lines_away(edit)):
         if len(edits) == 1 and _adds_lines(edits[0], lines):
-            corrected += [line for line in edits[0].text.split("\n") if line.strip()]
+            blocks.append((first, last, [line for line in edits[0].text.split("\n") if line.strip()]))
             continue
         if last - first >= MOST_LINES:
             return []
@@ -62,8 +91,9 @@ def corrected_lines(correction: Correction, lines: Lines) -> list[str]:
             start = starts[edit.line] + edit.column - 1
             end = starts[edit.end_line] + edit.end_column - 1
             text = text[:start] + edit.text + text[end:]
-        corrected += [line for line in text.split("\n") if line.strip()]
-    return corrected
+        if texts := [line for line in text.split("\n") if line.strip()]:
+            blocks.append((first, last, texts))
+    return blocks
 
 
 def _takes_lines_away(edit: Edit) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bbsd.errors.catalog import severity_of
-from bbsd.errors.correction import corrected_lines
+from bbsd.errors.correction import CorrectedLine, corrected_lines
 from bbsd.errors.kind import Severity
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class SpecError(Exception):
         """Return the line that a place is on; '' if there is none."""
         return self.others.get(place.file, self.source).line(place.line)
 
-    def corrected_lines(self, diagnosis: Diagnosis) -> list[str]:
+    def corrected_lines(self, diagnosis: Diagnosis) -> list[CorrectedLine]:
         """Return the lines that a diagnosis corrects as they should be; none if it has no correction."""
         if diagnosis.correction is None:
             return []

@@ -11,7 +11,7 @@ from bbsd.errors.kind import Severity
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from bbsd.errors.correction import Correction
+    from bbsd.errors.correction import CorrectedLine, Correction
     from bbsd.errors.diagnosis import Diagnosis, Place
 
 TAB = "    "
@@ -51,7 +51,7 @@ def _shown(text: str) -> str:
 
 
 def render_text(
-    diagnosis: Diagnosis, source_line: str, color: bool = False, corrected: Sequence[str] = ()
+    diagnosis: Diagnosis, source_line: str, color: bool = False, corrected: Sequence[CorrectedLine] = ()
 ) -> str:
     """Return a diagnosis as `file:line:column: error[code]: message`, source line, caret, corrected lines and advice.
 
@@ -87,13 +87,18 @@ def _excerpt(place: Place, source_line: str, style: str, color: bool) -> list[st
     ]
 
 
-def _corrected(correction: Correction, lines: Sequence[str], color: bool) -> list[str]:
-    """Return lines as they should be; of many, or of a long one, only the beginning."""
-    shown = [*lines[:MOST_CORRECTED], *(["…"] if len(lines) > MOST_CORRECTED else [])]
-    margins = [f"{'write' if correction.is_certain else 'maybe':>5} |", *(len(shown) - 1) * ["      |"]]
+def _corrected(correction: Correction, lines: Sequence[CorrectedLine], color: bool) -> list[str]:
+    """Return lines as they should be; of many, or of a long one, only the beginning.
+
+    Lines that stand apart in the file have their numbers, so that they do not look like one block.
+    """
+    shown = [(line.text, line.number) for line in lines[:MOST_CORRECTED]]
+    shown += [("…", 0)] if len(lines) > MOST_CORRECTED else []
+    first = f"{'write' if correction.is_certain else 'maybe':>5} |"
+    margins = [first, *(f"{f'at {number}' if number else '':>5} |" for _, number in shown[1:])]
     return [
         _colored(margin, GREEN, color) + " " + _shown(line[:SHOWN]) + ("…" if len(line) > SHOWN else "")
-        for margin, line in zip(margins, shown, strict=False)
+        for margin, (line, _) in zip(margins, shown, strict=False)
     ]
 
 

@@ -30,6 +30,8 @@ class Checked:
     meaning: Meaning | None
     made: tuple[Made, ...] = ()
     """Corrections that were made before."""
+    is_written: bool = True
+    """Whether the corrections are in the file, and not only shown."""
 
     def count(self, severity: Severity) -> int:
         """Return how many diagnoses are that severe."""
@@ -46,16 +48,18 @@ def checked_text(checked: Checked, *, color: bool, strict: bool, whole: bool = F
         render_text(each, texts.line(each.place), color, texts.corrected_lines(each))
         for each in checked.diagnoses
     ]
-    made = [_made_text(checked.file, each) for each in checked.made]
+    made = [_made_text(checked.file, each, is_written=checked.is_written) for each in checked.made]
     return "\n\n".join([*made, *diagnoses, _verdict(checked, strict=strict) + _open(checked, whole=whole)])
 
 
-def _made_text(file: str, made: Made) -> str:
-    """Return what was corrected, with its lines as they were and as they are."""
+def _made_text(file: str, made: Made, *, is_written: bool) -> str:
+    """Return what was corrected, with its lines as they were and as they are; what is not written, a diff shows."""
     lines = [("-", line) for line in made.before] + [("+", line) for line in made.after]
+    lines = lines if is_written else []
     shown = [f"    {sign} | {escape(line)}" for sign, line in lines if line.strip()]
     place = f"{escape(file)}:{made.diagnosis.place.line}"
-    return "\n".join([f"{place}: corrected[{made.diagnosis.code}]: {escape(made.diagnosis.message)}", *shown])
+    word = "corrected" if is_written else "would be corrected"
+    return "\n".join([f"{place}: {word}[{made.diagnosis.code}]: {escape(made.diagnosis.message)}", *shown])
 
 
 def _open(checked: Checked, *, whole: bool) -> str:
@@ -69,6 +73,8 @@ def _open(checked: Checked, *, whole: bool) -> str:
 def _verdict(checked: Checked, *, strict: bool) -> str:
     found = count_text(checked.diagnoses)
     corrected = [f"{len(checked.made)} corrected"] if checked.made else []
+    if checked.made and not checked.is_written:
+        corrected = [f"{len(checked.made)} would be corrected", "nothing written"]
     if checked.meaning is None:
         return f"{', '.join([found, *corrected])} in {escape(checked.file)}"
     words = [*([] if found and strict else ["ok"]), *([found] if found else []), *corrected]

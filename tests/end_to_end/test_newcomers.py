@@ -20,8 +20,12 @@ ADVICE: dict[str, tuple[str, ...]] = {
         "|     excited: not docked",
         'write not (for YAML, "!docked" is a tag)',
     ),
+    "037": ("write |   state:\n      |     distance: uniform(2, 5)",),
+    "042": ('this "(" is never closed', 'write ")" behind distance - speed * dt, 0'),
     "047": ('"---" begins a second document, and a spec is one', "remove this line"),
+    "058": ("write |     rules:\n      |       - when: {contact: true}",),
     "068": ("sonar is a number without any", "maybe |     inputs: [zone]", "zone is sonar cut into cells"),
+    "072": ("|   top_speed: 1\nat 22 |         speed: min(speed + 0.1, top_speed)",),
     "082": (
         "side has no cell where none of left, right holds",
         "maybe |       neither: otherwise",

@@ -271,8 +271,12 @@ def open_bracket(text: str, _key: str) -> Step | None:
     if not still_open:
         return None
     sign = text[still_open[-1]]
-    advice = f"this {sign} is never closed; {OPENING[sign]} is missing"
     places = [token.end for token in tokens(text) if token.start >= still_open[-1]]
     closed = [new for place in places if reads(new := spliced(text, place, place, OPENING[sign]))]
     last = closed[-1] if closed else None
-    return Step(still_open[-1], 1, "", advice, last, len(closed) == 1)
+    behind = "what belongs into it"
+    if last is not None:
+        stop = max(place for place in places if reads(spliced(text, place, place, OPENING[sign])))
+        behind = text[still_open[-1] + 1 : stop].strip()
+    advice = f'write "{OPENING[sign]}" behind {behind}'
+    return Step(still_open[-1], 1, f'this "{sign}" is never closed', advice, last, len(closed) == 1)

@@ -9,8 +9,9 @@ from bbsd.expression.syntax.tree import Span
 
 if TYPE_CHECKING:
     from bbsd.errors import Correction
-    from bbsd.expression.scope import Path
 
+ValuePath = tuple[str | int, ...]
+"""Keys and positions from the top of a spec that lead to a value, as in scopes."""
 WHOLE = Span(0, 0)
 """The span of a whole value, however it is written."""
 KEY = Span(-1, 0)
@@ -35,7 +36,7 @@ class Rewriting:
     span: Span = WHOLE
     is_certain: bool = True
     """Whether there is one reading of what was meant."""
-    at: Path | None = None
+    at: ValuePath | None = None
     """The path of the value that is rewritten, where it is not the one that the mistake is told at."""
 
 
@@ -47,7 +48,7 @@ class Addition:
     """
 
     text: str
-    mapping: Path
+    mapping: ValuePath
     behind: str = ""
 
 
@@ -64,8 +65,8 @@ class Mistake:
     span: Span = WHOLE
     advice: str = ""
     correction: Rewriting | Addition | Correction | None = None
-    seen_at: tuple[Path, ...] = ()
-    also_at: tuple[Path, ...] = ()
+    seen_at: tuple[ValuePath, ...] = ()
+    also_at: tuple[ValuePath, ...] = ()
 
 
 class ExpressionError(ValueError):

@@ -94,7 +94,7 @@ def _put_below(reading: Reading, path: Path, key: str, children: list[str]) -> N
         "BB140",
         f"{named(block)} is empty: what belongs to it must be indented below it",
         f"indent {what} by two blanks more than {key}",
-        correction(document, edits),
+        correction(document, edits, below=above),
     )
     for name in children:
         reading.move((*path, name), (*block, name))

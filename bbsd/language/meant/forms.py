@@ -175,7 +175,8 @@ def mapping_of_rules(reading: Reading) -> None:
         edits = _with_dashes(reading, path, value)
         message = "rules must be a list of rules, not a mapping: each rule begins with a dash"
         advice = "write - when: ..., and below it do: ..."
-        reading.tell(path, "BB022", message, advice, correction(reading.document(path), edits))
+        written = correction(reading.document(path), edits, below=reading.key(path))
+        reading.tell(path, "BB022", message, advice, written)
         parts: list[tuple[Path, Path]] = [
             ((at, key), (key,)) for at, item in enumerate(items) if isinstance(item, dict) for key in item
         ]

@@ -22,13 +22,19 @@ STEP = 2
 MAX_CHARACTERS = 100_000
 
 
-def correction(document: Document, edits: list[Edit] | None, *, is_certain: bool = True) -> Correction | None:
-    """Return edits as a correction; None where there are none, or the file could be read less well after them."""
+def correction(
+    document: Document, edits: list[Edit] | None, *, is_certain: bool = True, below: Scalar | None = None
+) -> Correction | None:
+    """Return edits as a correction; None where there are none, or the file could be read less well after them.
+
+    `below` is the key whose block they change, which is shown above it.
+    """
     if not edits or len(document.source.text) > MAX_CHARACTERS:
         return None
     before, after = document, read(document.source.edited(edits))
     is_read = after.root is not None and len(after.diagnoses) <= len(before.diagnoses)
-    return Correction(tuple(edits), is_certain) if is_read else None
+    line = document.source.line_number(below.start) if below else 0
+    return Correction(tuple(edits), is_certain, line) if is_read else None
 
 
 def column(source: Source, offset: int) -> int:

@@ -96,6 +96,9 @@ def test_corrections_can_be_shown_only(tmp_path, capsys):
         "-  near: 1 if tilted && true else 0  # both\n+  near: 1 if tilted and true else 0  # both"
         in told.out
     )
+    assert "would be corrected[" in told.err
+    assert "1 would be corrected, nothing written" in told.err
+    assert "&&" not in told.err.replace('"&&"', "")
     assert run("check", "--diff", path) == 2
 
 
