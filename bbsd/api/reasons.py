@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 class NoMoment(UsageError):
     """A why without a step, or with both a step and a described situation."""
 
-    advice = "give --step N (and --episode), or describe a situation with --at NAME=VALUE"
+    advice = (
+        "bbsd why --step 10 asks about step 10 of robot 0 in episode 0 (others by --robot and --episode); "
+        "or describe a situation with --at NAME=VALUE"
+    )
 
 
 @checked()

@@ -15,7 +15,7 @@ from bbsd.expression.checks import has_arguments, require_finite, require_kind, 
 from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
-from bbsd.expression.mistaken.draws import impossible_draw, missing_first
+from bbsd.expression.mistaken.draws import impossible_draw, missing_first, undrawn
 from bbsd.expression.naming import report_unknown_values, settled
 from bbsd.expression.operations import BY_WORD
 from bbsd.expression.relations import comparison, conditional
@@ -283,8 +283,7 @@ def _before(expr: Call, scope: Scope) -> Value:
 
 def _draw(expr: Call, scope: Scope) -> Node:
     if scope.draws is None:
-        advice = "draw it as a state variable and use that"
-        return scope.mistake("BB058", f"{expr.function}(...) cannot be drawn here", expr.span, advice)
+        return scope.mistake("BB058", *undrawn(expr, scope.path))
     if len(expr.arguments) == 1 and (missing := missing_first(expr)) is not None:
         return scope.mistake("BB054", missing.message, missing.span, missing.advice, missing.correction)
     operands = _numbers(expr, DRAWS[expr.function][0], scope)

@@ -187,8 +187,18 @@ def _diagnoses(
         if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _lacks_a_part(files)):
             nearest = existing(path, data)
             correction = None if place.file == OVERRIDES else placing.placed(mistake.correction, nearest)
-            diagnoses.append(Diagnosis(mistake.code, mistake.message, place, mistake.advice, correction))
+            message = mistake.message + _lines(mistake.seen_at, files, place.file)
+            diagnoses.append(Diagnosis(mistake.code, message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))
+
+
+def _lines(paths: Iterable[Path], files: Lineage, file: str) -> str:
+    """Return on which lines of a file values stand: ` (line 10)`; "" where they are not in it."""
+    places = (files.place(path, None, on_key=True, length=1) for path in paths)
+    numbers = sorted({place.line for place in places if place.file == file})
+    shown = " and ".join(map(str, numbers[-2:]))
+    shown = ", ".join([*map(str, numbers[:-2]), shown])
+    return f" (line{'s' if len(numbers) > 1 else ''} {shown})" if numbers else ""
 
 
 def _better_told(files: Lineage) -> dict[Diagnosis, Diagnosis]:

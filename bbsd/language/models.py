@@ -71,7 +71,7 @@ class Environment(Part):
         description="State whose value that environment is told at each step: a name, or a list of names.",
     )
     robots: Whole = Field(1, ge=1, le=64, description="Robots that carry the architecture.")
-    steps: Whole = Field(ge=1, le=10_000_000, description="Steps of an episode at most.")
+    steps: Whole = Field(ge=1, le=10_000_000, description="The greatest number of steps in an episode.")
     world: Entries[ValueNameText, ExpressionText] = Field(
         {}, description="Values the team has once: name and starting value, a number, a truth, or a list."
     )

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
 from bbsd.expression.foreign.translating import translated
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Mistake
 from bbsd.expression.vocabulary import WORDS
 from bbsd.language.field_types import is_value_name, kind_of, scalar_text
 from bbsd.language.goals import goal_mistake, is_block_of_costs, is_goal
@@ -162,9 +162,12 @@ def _missing(path: Path, key: str) -> Mistake:
     field = field_at((*path, key))
     meaning = field.description.rstrip(".") if field and field.description else ""
     message = f'{named(path)} needs the key "{key}": {meaning[:1].lower()}{meaning[1:]}'
-    return Mistake("BB021", message, KEY, ADVICE.get(key, ""))
+    added = Addition(ADDED[key], path) if key in ADDED else None
+    return Mistake("BB021", message, KEY, ADVICE.get(key, ""), added)
 
 
+ADDED = {"steps": "steps: 100"}
+"""Entries that a spec without them may begin with."""
 ADVICE = {"bbsd": "write bbsd: 1", "when": "a rule has when and do, or otherwise alone"}
 
 

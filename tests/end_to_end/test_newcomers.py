@@ -23,14 +23,23 @@ ADVICE: dict[str, tuple[str, ...]] = {
     "037": ("write |   state:\n      |     distance: uniform(2, 5)",),
     "042": ('this "(" is never closed', 'write ")" behind distance - speed * dt, 0'),
     "047": ('"---" begins a second document, and a spec is one', "remove this line"),
+    "054": (
+        "remove this line, and write at the end: structure: [clean, recharge], the highest priority first",
+    ),
     "058": ("write |     rules:\n      |       - when: {contact: true}",),
+    "062": ("zone is not cut at 0.4, only at 0.2, 0.5 and 1", "cut(..., 0.2, 0.4, 0.5, 1)"),
+    "067": ("environment.state (line 10)", "a name stands for one thing only"),
     "068": ("sonar is a number without any", "maybe |     inputs: [zone]", "zone is sonar cut into cells"),
     "072": ("|   top_speed: 1\nat 22 |         speed: min(speed + 0.1, top_speed)",),
+    "075": ("the greatest number of steps in an episode", "maybe |   steps: 100"),
+    "076": ('"creep" is an action of drive, not of stay', "stay has: halt; or write no action"),
+    "080": ("contact is a sensor, but not an input of drive", "maybe |     inputs: [zone, contact]"),
     "082": (
         "side has no cell where none of left, right holds",
         "maybe |       neither: otherwise",
         "write right: otherwise only if the rest counts as right",
     ),
+    "083": ("excited draws nothing at random", "under state coin: false, under dynamics coin: chance(0.5)"),
 }
 """What is said of mistakes whose correction takes a thought: it must lead on, and nowhere else."""
 

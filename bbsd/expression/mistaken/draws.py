@@ -11,6 +11,8 @@ from bbsd.expression.syntax.tree import Call, Generator, Number, Span
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from bbsd.expression.syntax.mistakes import ValuePath
+
 WHOLE_PERCENT = 100
 TAKES = {
     "normal": "mean and deviation",
@@ -70,3 +72,28 @@ def _chance(draw: Call, probability: float) -> ImpossibleDraw:
     return ImpossibleDraw(
         what, argument.span, f"write {new} where {probability:g} percent are meant", correction
     )
+
+
+def undrawn(expr: Call, path: ValuePath) -> tuple[str, Span, str]:
+    """Return message, span and advice for a draw where nothing is drawn: by the key whose value would draw."""
+    keys = [segment for segment in path if isinstance(segment, str)]
+    where = next((key for key in reversed(keys) if key in UNDRAWN), "")
+    message = f"{UNDRAWN.get(where, 'what stands here')} draws nothing at random"
+    name, start = ("coin", "false") if expr.function == "chance" else ("luck", "0")
+    advice = (
+        f"draw it in dynamics: under state {name}: {start}, under dynamics {name}: {render(expr)}, "
+        f"and here {name} in its place"
+    )
+    return message, expr.span, advice
+
+
+UNDRAWN = {
+    "excited": "excited",
+    "inputs": "an input",
+    "reward": "the reward",
+    "ends": "ends",
+    "definitions": "a definition",
+    "view": "the picture",
+    "expects": "expects",
+}
+"""Blocks and keys below which nothing is drawn, and what a message calls what stands there."""

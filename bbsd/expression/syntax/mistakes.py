@@ -56,8 +56,8 @@ class Addition:
 class Mistake:
     """A diagnosis relative to the text of one expression, to a whole value, or to its key.
 
-    Its correction is relative to the same, or already placed in the file. `seen_at` and `also_at` are paths of what the
-    message and the advice speak of; the lines on which they stand are told behind each.
+    Its correction is relative to the same, or already placed in the file. `seen_at` are paths of what the
+    message speaks of, whose lines are told behind it.
     """
 
     code: str
@@ -66,7 +66,6 @@ class Mistake:
     advice: str = ""
     correction: Rewriting | Addition | Correction | None = None
     seen_at: tuple[ValuePath, ...] = ()
-    also_at: tuple[ValuePath, ...] = ()
 
 
 class ExpressionError(ValueError):

@@ -122,7 +122,9 @@ def _given_table(
     """Return the cells that rules or a table give; report no mistake in the use of names that are `unusable`."""
     actions, findings = list(behavior.actions), names.findings
     if behavior.table is None:
-        return table_of_rules(behavior.rules, inputs, actions, (*path, "rules"), findings, unusable)
+        return table_of_rules(
+            behavior.rules, inputs, actions, (*path, "rules"), findings, unusable, names.spec
+        )
     if behavior.rules is not None:
         advice = "keep one of them; what a spec extends is taken away by rules: null or table: null"
         findings.report((*path, "table"), "BB047", "this behavior has both rules and a table", KEY, advice)

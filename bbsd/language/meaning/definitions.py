@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.scope import Definition, Findings, Path, Unusable
-from bbsd.expression.syntax.mistakes import KEY
+from bbsd.expression.syntax.mistakes import KEY, Mistake
 from bbsd.expression.syntax.tree import functions_called, names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
 from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
@@ -78,8 +78,9 @@ def _report_duplicate(name: str, path: Path, first: Path, findings: Findings) ->
         else f"of something in {'.'.join(map(str, first[:-1]))}"
     )
     message = f"{name} is already the name {place}"
-    advice = "constants, world, state, definitions, sensors and observations share their names"
-    findings.report(path, "BB025", message, KEY, advice)
+    advice = f"a name stands for one thing only; give this one another, such as {name}_2"
+    seen_at = () if first[-1] in OUTSIDE_KINDS else (first,)
+    findings.add(path, Mistake("BB025", message, KEY, advice, seen_at=seen_at))
 
 
 def report_unordered(

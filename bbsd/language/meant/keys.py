@@ -220,10 +220,12 @@ def without_place(reading: Reading) -> None:
         path = ("behaviors", name)
         for key in [*reading.mapping(path)]:
             if key in NOWHERE:
-                reading.tell(
-                    (*path, key),
-                    "BB020",
-                    f'unexpected key "{key}": {NOWHERE[key]}',
-                    f"list {named(path)} in structure where it belongs",
-                )
+                advice = f"remove this line; list {named(path)} in structure where it belongs"
+                if reading.data.get("structure") is None:
+                    layers = ", ".join(reading.mapping(("behaviors",)))
+                    advice = (
+                        f"remove this line, and write at the end: structure: [{layers}], the highest priority first "
+                        "(without structure, the order is designed)"
+                    )
+                reading.tell((*path, key), "BB020", f'unexpected key "{key}": {NOWHERE[key]}', advice)
                 reading.remove((*path, key))

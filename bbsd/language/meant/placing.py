@@ -67,6 +67,9 @@ def _added(addition: Addition, document: Document) -> Edit | None:
 
 
 def _edits(rewriting: Rewriting, path: Path, document: Document) -> Edit | None:
+    node = document.node(path)
+    if rewriting.at is not None and isinstance(node, Sequence) and not node.flow:
+        return None
     if rewriting.span in (KEY, WHOLE):
         stretch = document.stretch(path, on_key=rewriting.span == KEY)
     elif (span := characters_of_key(rewriting.span)) is not None:

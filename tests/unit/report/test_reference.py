@@ -40,7 +40,7 @@ def test_a_description_of_several_lines_is_paragraphs_and_no_block_of_code(monke
             "(17), or by what an agent earns less with the behavior held to No Action. |"
         ),
         "| `excited` | expression |  | Where the behavior is excited; by default always. |",
-        "| `steps` | whole number, 1 to 10,000,000 | required | Steps of an episode at most. |",
+        "| `steps` | whole number, 1 to 10,000,000 | required | The greatest number of steps in an episode. |",
     ],
 )
 def test_a_key_has_its_kind_bounds_default_and_meaning(row):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -16,10 +17,16 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
     from bbsd.expression.scope import Path
+    from bbsd.expression.syntax.tree import Span
     from bbsd.language.meaning.tables.labels import Labels
+    from bbsd.language.models import Spec
 
 MAX_MATCHED = 30_000_000
 """Cells that all rules of a behavior match, each counted once a rule that matches it."""
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?")
+RANGE = re.compile(rf"(?:below|from) ({NUMBER.pattern})|({NUMBER.pattern}) to ({NUMBER.pattern})")
+MOST_BOUNDS = 12
+"""Bounds of a cut that a message repeats."""
 NOTHING = frozenset(
     (
         *("nothing", "none", "null", "noop", "no-op", "no_op", "no_action", "no-action"),
@@ -36,18 +43,21 @@ def table_of_rules(
     path: Path,
     findings: Findings,
     unusable: Collection[str] = (),
+    spec: Spec | None = None,
 ) -> Table:
     """Return the cells that rules decide, each by the first rule that matches it; report mistakes and skip the rule.
 
-    No mistake is reported in the use of `unusable` names, whose own mistakes were reported before.
+    No mistake is reported in the use of `unusable` names, whose own mistakes were reported before. `spec` is the one
+    that the rules stand in, to say what a wrong name is elsewhere.
     """
     decisions = [
-        _decision(rule, actions, (*path, index), findings, unusable) for index, rule in enumerate(rules or ())
+        _decision(rule, actions, (*path, index), findings, unusable, spec)
+        for index, rule in enumerate(rules or ())
     ]
     sizes = [len(cells) for cells in inputs.values()]
     given, undecided, n_matched = bytearray([OPEN_CELL]) * prod(sizes), bytearray([1]) * prod(sizes), 0
     for index, (rule, decision) in enumerate(zip(rules or (), decisions, strict=True)):
-        matched = _matched(rule, inputs, (*path, index), findings, unusable)
+        matched = _matched(rule, inputs, (*path, index), findings, unusable, spec)
         if decision is None or matched is None:
             continue
         n_matched += prod(len(cells) for cells in matched)
@@ -67,7 +77,7 @@ def table_of_rules(
 
 def cells_matched(rule: Rule, inputs: Inputs) -> tuple[tuple[int, ...], ...]:
     """Return for each input the cells that a rule without mistakes matches, in ascending order."""
-    matched = _matched(rule, inputs, (), Findings(), ())
+    matched = _matched(rule, inputs, (), Findings(), (), None)
     return tuple(tuple(cells) for cells in matched or ())
 
 
@@ -80,7 +90,12 @@ def _cells_of_block(matched: Sequence[Sequence[int]], sizes: Sequence[int]) -> l
 
 
 def _decision(
-    rule: Rule, actions: Sequence[str], path: Path, findings: Findings, unusable: Collection[str]
+    rule: Rule,
+    actions: Sequence[str],
+    path: Path,
+    findings: Findings,
+    unusable: Collection[str],
+    spec: Spec | None,
 ) -> int | None:
     """Return what a cell holds where the rule decides; None where that is no action."""
     key, word = ("otherwise", rule.otherwise) if isinstance(rule, Otherwise) else ("do", rule.do)
@@ -89,6 +104,15 @@ def _decision(
     if word in actions:
         return actions.index(word) + 1
     if word not in unusable and not any(action in unusable for action in actions):
+        other = (
+            next((name for name, each in spec.behaviors.items() if word in each.actions), "") if spec else ""
+        )
+        if other and len(path) > 1:
+            message = f'"{word}" is an action of {other}, not of {path[1]}'
+            own = f"{path[1]} has: {', '.join(actions)}"
+            advice = f"{own}; or write no action, or add {word} to the actions of {path[1]}"
+            findings.report((*path, key), "BB036", message, WHOLE, advice)
+            return None
         is_nothing = word.lower() in NOTHING
         near = NO_ACTION_TEXT if is_nothing else nearest(word, [*actions, NO_ACTION_TEXT, OPEN])
         hint = f'; did you mean "{near}"?' if near else ""
@@ -100,12 +124,20 @@ def _decision(
 
 
 def _matched(
-    rule: Rule, inputs: Inputs, path: Path, findings: Findings, unusable: Collection[str]
+    rule: Rule,
+    inputs: Inputs,
+    path: Path,
+    findings: Findings,
+    unusable: Collection[str],
+    spec: Spec | None,
 ) -> list[Sequence[int]] | None:
     """Return for each input the cells that the rule matches; None after a mistake."""
     when = {} if isinstance(rule, Otherwise) else rule.when
     for name in when:
         if name not in inputs and name not in unusable:
+            if spec and len(path) > 1 and name in spec.environment.sensors:
+                findings.report((*path, "when", name), "BB034", *_no_input(name, str(path[1]), spec))
+                continue
             near = nearest(name, inputs)
             hint = did_you_mean(name, inputs) or f"; {_inputs_advice(inputs)}"
             message = f'"{name}" is not an input of this behavior{hint}'
@@ -114,6 +146,17 @@ def _matched(
     matched = [_cells_matched(name, cells, when, path, findings) for name, cells in inputs.items()]
     understood = [cells for cells in matched if cells is not None]
     return understood if when.keys() <= inputs.keys() and len(understood) == len(matched) else None
+
+
+def _no_input(name: str, behavior: str, spec: Spec) -> tuple[str, Span, str, Rewriting | None]:
+    """Return what is said of a sensor that is none of a behavior's inputs: list it there."""
+    message = f"{name} is a sensor, but not an input of {behavior}"
+    inputs = spec.behaviors[behavior].inputs
+    if isinstance(inputs, dict):
+        return message, KEY, f"add it to the inputs of {behavior}: {name}: {name}", None
+    wanted = f"[{', '.join([*inputs, name])}]"
+    written = Rewriting(wanted, is_certain=False, at=("behaviors", behavior, "inputs"))
+    return message, KEY, f"write inputs: {wanted}", written
 
 
 def _inputs_advice(inputs: Inputs) -> str:
@@ -129,14 +172,37 @@ def _cells_matched(
     for index, (word, matched) in enumerate(zip(when[name], named, strict=True)):
         if matched is None:
             near, is_certain = meant_cell(word, cells)
+            where = (*path, "when", name, index)
+            if (uncut := _uncut(word, name, cells)) is not None:
+                findings.report(where, "BB035", uncut[0], WHOLE, uncut[1])
+                continue
             hint = f'; did you mean "{near}"?' if near else ""
             message = f'"{word}" is not a cell of {name}{hint}'
             correction = Rewriting(near, is_certain=is_certain) if near else None
-            where = (*path, "when", name, index)
             findings.report(where, "BB035", message, WHOLE, _cells_advice(cells), correction)
     if None in named:
         return None
     return sorted({cell for matched in named for cell in matched or ()})
+
+
+def _uncut(word: str, name: str, cells: Labels) -> tuple[str, str] | None:
+    """Return message and advice for a range that begins or ends where an input is not cut; None for other words."""
+    match, bounds = RANGE.fullmatch(word.strip()), bounds_of(cells)
+    if match is None or not bounds or not all(map(NUMBER.fullmatch, bounds)):
+        return None
+    wanted = [number for number in match.groups() if number is not None]
+    new = [number for number in wanted if float(number) not in map(float, bounds)]
+    if not new or len(bounds) > MOST_BOUNDS:
+        return None
+    message = f"{name} is not cut at {' and '.join(new)}, only at {_listed(bounds)}"
+    all_bounds = ", ".join(sorted({*bounds, *new}, key=float))
+    one = "take one of these" if len(bounds) > 1 else "take this one"
+    return message, f"{one}, or add the bound where {name} is cut: cut(..., {all_bounds})"
+
+
+def _listed(words: Sequence[str]) -> str:
+    *former, last = words
+    return f"{', '.join(former)} and {last}" if former else last
 
 
 def _cells_advice(cells: Labels) -> str:

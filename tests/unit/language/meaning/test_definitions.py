@@ -38,7 +38,7 @@ def test_uses_of_a_definition_whose_key_is_wrong_are_not_told() -> None:
 
 def test_what_is_named_twice_is_told_at_the_second_place() -> None:
     assert messages("environment: {sensors: {speed: 3}}") == [
-        "speed is already the name of something in environment.state"
+        "speed is already the name of something in environment.state (line 9)"
     ]
     assert codes('environment: {definitions: {far: 1, "far(a)": a}}') == ["BB025"]
 

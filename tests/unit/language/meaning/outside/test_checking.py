@@ -75,7 +75,7 @@ def test_each_key_without_an_environment_is_told_of() -> None:
 def test_observations_share_the_names_of_all_values() -> None:
     ((code, message),) = messages("constants: {angle: 5}")
     assert (code, message) == (
-        "BB025", "angle is already the name of something in environment.observation",
+        "BB025", "angle is already the name of something in environment.observation (line 11)",
     )  # fmt: skip
     ((code, message),) = messages("environment: {sensors: {earned: 5}}")
     assert (code, message) == ("BB025", "earned is already the name of what the environment rewards")
