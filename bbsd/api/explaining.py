@@ -9,7 +9,7 @@ from bbsd.api.given.arguments import Assignments, checked, whole
 from bbsd.api.given.sources import run_of
 from bbsd.api.results import Designed
 from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from
-from bbsd.architecture import architecture_of
+from bbsd.architecture import HolesLeft, architecture_of, holes_of
 from bbsd.explanation import Explanation, explain_architecture
 from bbsd.runs.storage.visits import read_visits
 
@@ -17,6 +17,12 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.architecture.visits import Visits
     from bbsd.language.loading import Loaded
+
+
+class NothingToExplain(HolesLeft):
+    """A spec with holes, of which nothing is decided yet."""
+
+    advice = "have it designed: bbsd design, then bbsd explain FOLDER"
 
 
 @checked(episodes=whole(0))
@@ -39,6 +45,8 @@ def explain(
         HolesLeft: the spec has holes.
     """
     loaded = loaded_from(spec, seed, set)
+    if holes := holes_of(loaded.meaning):
+        raise NothingToExplain(f"there is nothing to explain yet: the spec has holes ({'; '.join(holes)})")
     architecture = architecture_of(loaded.meaning)
     visits = _visits(spec, loaded, architecture, seed, episodes, is_changed=bool(set))
     if worth and visits is None:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from bbsd.errors.diagnosis import Diagnosis, Place
 
 TAB = "    "
+UNREAD = "BB001"
+"""The code of a file that cannot be read, in which there are no places."""
 MOST_CORRECTED = 6
 """Corrected lines that are shown."""
 BEFORE, SHOWN = 60, 160  # the characters of a long line that are shown before the place, and in all
@@ -60,7 +62,11 @@ def render_text(
     ends without a line break.
     """
     place = diagnosis.place
-    head = f"{escape(place.file)}:{place.line}:{place.column}: "
+    head = (
+        f"{escape(place.file)}: "
+        if diagnosis.code == UNREAD
+        else f"{escape(place.file)}:{place.line}:{place.column}: "
+    )
     severity = _colored(f"{diagnosis.severity}[{diagnosis.code}]", STYLES[diagnosis.severity], color)
     lines = [head + severity + ": " + _colored(escape(diagnosis.message), BOLD, color)]
     if source_line:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import Severity, escape, render_json, render_text
+from bbsd.errors.rendering import UNREAD
 from bbsd.report.numbers import count
 from bbsd.report.open import open_line, open_list, open_plain
 from bbsd.report.size import size_text
@@ -49,6 +50,8 @@ def checked_text(checked: Checked, *, color: bool, strict: bool, whole: bool = F
         for each in checked.diagnoses
     ]
     made = [_made_text(checked.file, each, is_written=checked.is_written) for each in checked.made]
+    if all(each.code == UNREAD for each in checked.diagnoses) and checked.diagnoses:
+        return "\n\n".join(diagnoses)
     return "\n\n".join([*made, *diagnoses, _verdict(checked, strict=strict) + _open(checked, whole=whole)])
 
 

@@ -148,4 +148,6 @@ def with_file(advice: str) -> str:
     if len(files) != 1:
         return advice
     file = shlex.quote(shown(files[0]))
-    return re.sub(r"bbsd (design|evaluate|why)(?=[;, ]|$)(?! [\w.<])", rf"bbsd \1 {file}", advice)
+    return re.sub(
+        r"bbsd (design|evaluate|why)(?=[;, ]|$)(?! [\w.<])", lambda found: f"{found[0]} {file}", advice
+    )

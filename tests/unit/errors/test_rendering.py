@@ -28,7 +28,7 @@ def test_a_diagnosis_shows_its_line_a_caret_and_the_advice() -> None:
 
 def test_without_a_source_line_only_the_message_is_shown() -> None:
     diagnosis = Diagnosis("BB001", "there is no such file", Place("spec.yaml", 1, 1))
-    assert render_text(diagnosis, "") == "spec.yaml:1:1: error[BB001]: there is no such file"
+    assert render_text(diagnosis, "") == "spec.yaml: error[BB001]: there is no such file"
 
 
 def test_tabs_are_shown_as_blanks_and_the_caret_stays_below() -> None:

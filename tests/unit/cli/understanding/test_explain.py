@@ -76,3 +76,10 @@ def test_json_is_the_format_json(command, capsys):
     out = capsys.readouterr().out
     assert out[: len(out) // 2] == out[len(out) // 2 :]
     assert json.loads(out[: len(out) // 2])
+
+
+def test_of_a_spec_with_holes_there_is_nothing_to_explain_yet(capsys):
+    assert run("explain", SPECS / "object_lifting.yaml") == 2
+    told = capsys.readouterr().err
+    assert "there is nothing to explain yet: the spec has holes (push_more: 1 of 1 cell open" in told
+    assert "have it designed: bbsd design" in told
