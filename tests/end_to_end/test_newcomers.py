@@ -26,6 +26,7 @@ ADVICE: dict[str, tuple[str, ...]] = {
     "054": (
         "remove this line, and write at the end: structure: [clean, recharge], the highest priority first",
     ),
+    "057": ("maybe |     actions:\n      |       left: {turn: 0}",),
     "058": ("write |     rules:\n      |       - when: {contact: true}",),
     "062": ("zone is not cut at 0.4, only at 0.2, 0.5 and 1", "cut(..., 0.2, 0.4, 0.5, 1)"),
     "067": ("environment.state (line 10)", "a name stands for one thing only"),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
-from bbsd.language.meant.layout import begins_line, correction, lines, stretch
+from bbsd.language.meant.layout import STEP, begins_line, column, correction, lines, stretch
 from bbsd.language.validation import named
 from bbsd.text.nodes import Mapping, Scalar, Sequence
 
@@ -110,12 +110,21 @@ def _actions_without_effects(reading: Reading, path: Path, names: list[str]) -> 
     state, dynamics = (reading.mapping(("environment", key)) for key in ("state", "dynamics"))
     example = next((name for name in state if name not in dynamics), next(iter(state), "speed"))
     message = "actions is no list: each action is a name and what it sets"
+    node, key, written = reading.node(path), reading.key(path), None
+    source = reading.document(path).source
+    if isinstance(node, Sequence) and node.flow and key is not None:
+        indent = " " * (column(source, key.start) + STEP)
+        entries = "".join(f"\n{indent}{name}: {{{example}: 0}}" for name in names)
+        colon = source.text.index(":", key.end) + 1
+        written = correction(
+            reading.document(path), [source.edit(colon, node.end, entries)], is_certain=False
+        )
     reading.tell(
         path,
         "BB022",
         message,
-        f"write {names[0]}: {{{example}: ...}}, with the value that it sets",
-        None,
+        f"write {names[0]}: {{{example}: ...}} and so on, each with what it sets in place of 0",
+        written,
         WHOLE,
     )
     reading.replace(path, {name: {} for name in names})
