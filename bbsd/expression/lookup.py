@@ -244,7 +244,7 @@ def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Valu
         return scope.mistake("BB057", message, at.span)
     scope.findings.wholes.append((scope.path, at.span, "an index", index))
     picked = pick(items, index, scope.graph)
-    if any(isinstance(item, Named) for item in items) and picked is scope.graph.unknown:
+    if picked is scope.graph.unknown and any(isinstance(item, Named) for item in items):
         kinds = {item.kind for item in items if not isinstance(item, tuple)}
         if Kind.UNKNOWN not in kinds:
             message = "a list of values that do not have the same names can only be indexed by a plain number"
