@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from bbsd.errors import nearest
 from bbsd.expression.aggregates import aggregate
 from bbsd.expression.checks import has_arguments, require_finite, require_kind, require_static_whole
-from bbsd.expression.foreign.calls import other_name
 from bbsd.expression.kinds import Kind
 from bbsd.expression.lookup import call_definition, element, name_value
 from bbsd.expression.mistaken.draws import impossible_draw, missing_first, undrawn
@@ -232,6 +231,8 @@ def _uncallable(expr: Call, scope: Scope) -> Node:
         return scope.mistake("BB053", f"{name} can only stand after in", expr.span)
     if binding is not None or name in scope.local:
         return scope.mistake("BB053", f"{name} is not a function", expr.span)
+    from bbsd.expression.foreign.calls import other_name
+
     definitions = [key for key, bound in scope.names.items() if isinstance(bound, Definition)]
     if (other := other_name(name, [render(argument) for argument in expr.arguments])) is not None:
         new, is_certain = other

@@ -11,9 +11,6 @@ from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
-from bbsd.language.meant.placing import Placing
-from bbsd.language.meant.texts import refined
-from bbsd.language.meant.understanding import as_meant
 from bbsd.language.overrides import FILE as OVERRIDES
 from bbsd.language.overrides import overrides_source, read_overrides, with_overrides
 from bbsd.language.recovery import recover
@@ -140,6 +137,10 @@ def _examine(data: dict[str, Data], files: Lineage, seed: int, *, is_small: bool
     if spec:
         meaning, found = elaborate(spec, seed)
         return _Examined(meaning, found)
+    from bbsd.language.meant.understanding import (
+        as_meant,
+    )  # only mistakes need it, and it takes long to import
+
     reading = as_meant(data, files)
     if reading.told:
         spec, errors = validate(reading.data)
@@ -177,6 +178,8 @@ def _diagnoses(
 
     Where the reading of YAML already reported a mistake, there is no other.
     """
+    from bbsd.language.meant.placing import Placing
+
     told = [each for each in files.mistakes if not _is_explained(each, files, explained)]
     better = _better_told(files) if told else {}
     unreadable = {_start(diagnosis.place) for diagnosis in told}
@@ -203,6 +206,8 @@ def _lines(paths: Iterable[Path], files: Lineage, file: str) -> str:
 
 def _better_told(files: Lineage) -> dict[Diagnosis, Diagnosis]:
     """Return how mistakes of YAML are told, by how its reading told them."""
+    from bbsd.language.meant.texts import refined
+
     pairs = (zip(each.diagnoses, refined(each), strict=True) for each in files.documents)
     return {before: after for pair in pairs for before, after in pair}
 

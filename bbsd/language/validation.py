@@ -9,7 +9,6 @@ from annotated_types import Ge, Le
 from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.foreign.translating import translated
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Mistake
 from bbsd.expression.vocabulary import WORDS
 from bbsd.language.field_types import is_value_name, kind_of, scalar_text
@@ -116,6 +115,8 @@ def _mistake(error: ErrorDetails, data: Data) -> Mistake:
     match error["type"]:
         case "expression":
             mistake = cast("Mistake", error["ctx"]["mistake"])
+            from bbsd.expression.foreign.translating import translated
+
             return translated(scalar_text(error["input"]) or "", mistake, key_of(path))
         case "mistake":
             return cast("Mistake", error["ctx"]["mistake"])
