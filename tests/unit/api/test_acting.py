@@ -46,6 +46,13 @@ def values_given(agent, stored):
     return given_values
 
 
+def stored_bits(value, labels):
+    """What is stored of a value that an agent sets: a number, one of several names, or a list of such."""
+    if isinstance(value, list):
+        return [each for element in value for each in stored_bits(element, labels)]
+    return [bits(float(labels.index(value)) if isinstance(value, str) else value)]
+
+
 def assert_same(meaning, design, key, generation=1):
     """Each robot's agent does in each step what the robot does in the recorded episode, to the last bit."""
     recording = record_episode(compile_meaning(meaning, compiled=False), design, key, generation)
@@ -56,12 +63,14 @@ def assert_same(meaning, design, key, generation=1):
     numbers = set()
     for step, stored in enumerate(recording.stored):
         acted = acted_values(meaning, recording, step, constants)
-        by_slot = {(slot.name, slot.robot): value for slot, value in acted.items()}
+        of_robots = {}
+        for slot in sorted(acted, key=lambda slot: slot.place):
+            of_robots.setdefault((slot.name, slot.robot), []).append(bits(acted[slot]))
         for robot, agent in enumerate(agents):
             act = agent.act(values_given(agent, stored))
             assert act.number == recording.choices[step, robot]
             for name, value in act.sets.items():
-                assert bits(value) == bits(by_slot[name, robot])
+                assert stored_bits(value, meaning.episode.labels(name)) == of_robots[name, robot]
             numbers.add(act.number)
     return numbers
 

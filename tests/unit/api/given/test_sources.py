@@ -168,5 +168,5 @@ def test_a_finished_run_is_designed_only_with_a_word_on_it(run):
 
 
 def test_a_folder_that_is_no_run_is_told(tmp_path):
-    with pytest.raises(NoDesign, match="is a folder, and not that of a run"):
+    with pytest.raises(NoDesign, match="is a folder; design needs the file of one spec"):
         bbsd.design(tmp_path)
