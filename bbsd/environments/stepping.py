@@ -15,7 +15,7 @@ class EnvironmentNotImported(UsageError):
     """Episodes of an environment that is stepped in Python, asked of what imports nothing for a spec."""
 
     advice = (
-        "only bbsd design, evaluate and spaces import what a spec names, each with --allow-import NAME; "
+        "only the commands design, evaluate and spaces import what a spec names, each with --allow-import NAME; "
         "in Python: design, evaluate, trace and price with allow_import"
     )
 

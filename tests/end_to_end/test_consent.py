@@ -133,7 +133,7 @@ def test_1_what_only_reads_a_spec_imports_nothing(planted, command, code):
 def test_2_commands_that_do_not_import_say_so(planted, words):
     command, *options = words
     err = planted.refuses(command, planted.spec(), *options)
-    assert "only bbsd design, evaluate and spaces import" in err
+    assert "only the commands design, evaluate and spaces import" in err
     assert "Traceback" not in err
 
 
@@ -146,7 +146,7 @@ def test_2_not_even_what_the_configuration_allows(planted, monkeypatch, words):
     monkeypatch.setattr("bbsd.environments.for_spec.closed_folders", lambda _lineage: ())
     command, *options = words
     err = planted.refuses(command, planted.spec(), *options)
-    assert "only bbsd design, evaluate and spaces import" in err
+    assert "only the commands design, evaluate and spaces import" in err
 
 
 def test_3_nor_does_a_comparison(planted):

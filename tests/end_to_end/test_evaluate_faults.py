@@ -40,5 +40,5 @@ def test_mistakes_of_users():
     assert command("evaluate", HAND, "--relearn")[0] == 2
     assert command("evaluate", HAND, "--fault", "all", "--exact")[0] == 2
     assert command("evaluate", HAND, "--fault", "all", "--episodes", 1)[0] == 2
-    with pytest.raises(ValueError, match="two episodes"):
+    with pytest.raises(ValueError, match="2 or more"):
         bbsd.faults(HAND, ["all"], episodes=1)

@@ -1,12 +1,16 @@
 """What KernelLower makes of variables, elements of arrays and calls."""
 
 import re
+from collections.abc import Callable
+from inspect import signature
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 
-from bbsd.kernel.jit import LIBRARY
+from bbsd.kernel import functions
+from bbsd.kernel.jit import LIBRARY_OPTIONS
 from bbsd.kernel.lowering import KernelLower
 from bbsd.kernel.modules import load_kernel
 
@@ -81,14 +85,17 @@ def test_no_array_has_a_place_on_the_stack_and_no_call_a_branch(monkeypatch: pyt
     assert not re.search(r"alloca \{i8\*, i8\*, i64, i64", calls)
 
 
-def test_no_function_of_the_library_raises() -> None:
-    outcome(2, compiled=True)
-    compiled = [form for function in LIBRARY for form in function.overloads.values()]
-    assert len(compiled) > 5
-    for form in compiled:
-        name = re.escape(form.fndesc.llvm_func_name)
-        body = re.search(
-            rf'^define [^\n]*@"?{name}"?\(.*?^}}', form.library.get_llvm_str(), re.MULTILINE | re.DOTALL
-        )
-        assert body
-        assert set(re.findall(r"^ *ret (.*)$", body[0], re.MULTILINE)) == {"i32 0"}
+@pytest.mark.slow
+@pytest.mark.parametrize("function", functions.COMPILABLE, ids=lambda function: function.__name__)
+def test_no_function_of_the_library_raises(function: Callable[..., object]) -> None:
+    parameters = signature(function).parameters.values()
+    kinds = [numba.int64 if each.annotation == "int" else numba.float64 for each in parameters]
+    compiled = numba.njit(**LIBRARY_OPTIONS)(function)
+    compiled.compile(tuple(kinds))
+    (form,) = compiled.overloads.values()
+    name = re.escape(form.fndesc.llvm_func_name)
+    body = re.search(
+        rf'^define [^\n]*@"?{name}"?\(.*?^}}', form.library.get_llvm_str(), re.MULTILINE | re.DOTALL
+    )
+    assert body
+    assert set(re.findall(r"^ *ret (.*)$", body[0], re.MULTILINE)) == {"i32 0"}
