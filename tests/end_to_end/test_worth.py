@@ -61,5 +61,5 @@ def test_mistakes_of_users():
     code, out, err = command("worth", "specs/object_lifting.yaml")
     assert (code, out) == (2, "")
     assert "the design has holes" in err
-    with pytest.raises(ValueError, match="two episodes"):
+    with pytest.raises(ValueError, match="2 or more"):
         bbsd.worth(HAND, episodes=1)
