@@ -216,17 +216,27 @@ class Totals:
             self._add(end.each, array, map(self._if, controls, met))
 
     def _add_undecided(self, array: str, emitter: Emitter, end: Closing) -> None:
-        """Count a step in which a number that decides something is not finite, of a robot or of the team."""
-        function = self.function
-        for own in (False, True):
-            block, known = end.knowing(own=own), list[Text]()
-            nodes = [node for node in self.deciding if (node.level in OWN) is own]
-            for first in range(0, len(nodes), MOST_ADDED):
-                texts = [emitter.text(node, block) for node in nodes[first : first + MOST_ADDED]]
-                joined = join("&", [*known, *(function.call_of("is_finite", text) for text in texts)])
-                known = [block.define(function.namer.numbered("decided"), joined, Kind.TRUTH)]
-            for decided in known:
-                self._add(block, array, [function.call_of("select", decided, ZERO, self._step)])
+        """Count a step in which a number that decides something is not finite, of the team or of any robot."""
+        function, of_team = self.function, self._decided(emitter, end, own=False)
+        of_robots = self._decided(emitter, end, own=True)
+        if function.looped and of_robots is not None:
+            so_far = function.keep("robots_undecided")
+            before = function.call_of("select", FIRST_ROBOT, ZERO, function.read(so_far))
+            end.each.store(function.at(so_far), function.call_of("select", of_robots, before, ONE))
+            of_robots = infix("==", function.read(so_far), ZERO)
+        decided = join("&", [text for text in (of_team, of_robots) if text is not None])
+        self._add(end.team, array, [function.call_of("select", decided, ZERO, self._step)])
+
+    def _decided(self, emitter: Emitter, end: Closing, *, own: bool) -> Text | None:
+        """Return whether all numbers that decide something, the team's or a robot's own, are finite; None: none do."""
+        function, block, known = self.function, end.knowing(own=own), None
+        nodes = [node for node in self.deciding if (node.level in OWN) is own]
+        for first in range(0, len(nodes), MOST_ADDED):
+            texts = [emitter.text(node, block) for node in nodes[first : first + MOST_ADDED]]
+            finite = [function.call_of("is_finite", text) for text in texts]
+            joined = join("&", finite if known is None else [known, *finite])
+            known = block.define(function.namer.numbered("decided"), joined, Kind.TRUTH)
+        return known
 
     @property
     def _step(self) -> Text:

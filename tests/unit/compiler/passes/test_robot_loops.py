@@ -8,9 +8,8 @@ from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.passes import folds
 from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
-from bbsd.language.meaning import elaborate
-from bbsd.language.models import Spec
 from tests.interpreter.made_up import specs
+from tests.interpreter.made_up_meanings import meaning_made_up
 from tests.unit.architecture.designs import shipped
 from tests.unit.compiler.robots import assert_loops_change_no_bit, bits, moving, source_with, with_loops
 from tests.unit.problems import RICH, lived, problem_of
@@ -37,6 +36,10 @@ CASES = {
         "left": {"actions": {"go": {"flag": "x > 0"}}, "excited": "1 + table[0][1] // 2 > table[0][2]"},
         "sensors": {"level": "1 + table[0][1] // (2 if flag else robot)"},
         "dynamics": {"y": "level"},
+    },
+    "steps in which robots' indices are not finite": {
+        "sensors": {"s": "table[0][1 + floor(log(x))]", "t": "table[1][floor(log(wind))]"},
+        "dynamics": {"y": "s + t"},
     },
     "state without dynamics": {},
     "sensors": {"sensors": {"s": "x + y", "t": "s * 2"}, "dynamics": {"x": "x + s"}},
@@ -348,8 +351,8 @@ def test_loops_change_no_bit_of_larger_specs(text):
     specs(most_robots=6), st.integers(0, 2**32), st.sampled_from([1, 2]), st.integers(1, 3), st.integers(2, 8)
 )
 def test_loops_change_no_bit_of_specs_that_are_made_up(data, seed, lanes, generation, looked_at):
-    meaning, _ = elaborate(Spec.model_validate(data), seed)
-    assume(meaning is not None and meaning.spec.environment.robots > 1)  # None: a division by zero
+    meaning = meaning_made_up(data, seed)
+    assume(meaning.spec.environment.robots > 1)
     problem = compile_meaning(meaning, lanes=lanes, compiled=False)
     written_out = bits(with_loops(problem, 100), 3, seed, generation)
     with pytest.MonkeyPatch.context() as patch:
