@@ -10,8 +10,10 @@ from bbsd.agent.program import Program
 from bbsd.agent.writing import slots_read
 from bbsd.architecture.controller import controller_of
 from bbsd.architecture.needs import needs_of
+from bbsd.architecture.needs.naming import BEFORE
 from bbsd.expression.graph import evaluate
 from bbsd.expression.kinds import Kind
+from bbsd.expression.nesting import lengths_of
 from bbsd.language.meaning.proofs.whole_numbers import whole_values
 
 if TYPE_CHECKING:
@@ -69,8 +71,23 @@ def program_of(design: Design, robot: int) -> Program:
     read, kept = slots_read(needs)
     inputs = inputs_of(design.meaning, design.needs.given, read, design.whole, robot)
     start = _start(needs, kept, design.constants)
-    named = design.meaning.episode.named
-    return Program(design.controller, robot, needs, inputs, tuple(kept), start, design.constants, named)
+    return Program(
+        design.controller,
+        robot,
+        needs,
+        inputs,
+        tuple(kept),
+        start,
+        design.constants,
+        named=design.meaning.episode.named,
+        lengths=_lengths(design.meaning),
+    )
+
+
+def _lengths(meaning: Meaning) -> dict[str, tuple[int, ...]]:
+    """Return the lengths of each value's lists, and of what it was before."""
+    lengths = lengths_of(slot.variable for slot in meaning.episode.start)
+    return lengths | {f"{BEFORE}{name}": each for name, each in lengths.items()}
 
 
 def _start(needs: RobotNeeds, kept: Sequence[Slot], constants: Sequence[float]) -> Kept:

@@ -86,7 +86,11 @@ class Many:
         numbers, sets = np.zeros(self.n, np.int64), np.full((len(self._variables), self.n), np.nan)
         self._steps += 1
         self._many(np.ascontiguousarray(rows), self._kept, self._steps, self._keys, numbers, sets)
-        return Acts(numbers, by_name(self._variables, [*sets], lambda rows: np.stack(rows, axis=1)))
+        return Acts(numbers, by_name(self._variables, [*sets], self._program.lengths, _stacked))
+
+
+def _stacked(rows: list[Floats]) -> Floats:
+    return np.stack(rows, axis=1)
 
 
 def _compiled(program: Program) -> Callable[..., None]:

@@ -61,6 +61,8 @@ class Program:
     constants: Sequence[float]
     named: Mapping[str, tuple[str, ...]]
     """The names of values of state, by what has them."""
+    lengths: Mapping[str, tuple[int, ...]]
+    """The lengths of lists, by the names of what is set or kept; () for a single value."""
 
     @property
     def values(self) -> dict[Slot, str]:
@@ -158,7 +160,7 @@ def _outcome(program: Program, number: int, used: set[str]) -> list[str]:
             program.controller.actions[number - 1].name,
         )
     texts = [_as_set(variable, text, program) for variable, text in outcome.sets.items()]
-    named = by_name([*outcome.sets], texts, lambda items: f"[{', '.join(items)}]")
+    named = by_name([*outcome.sets], texts, program.lengths, lambda items: f"[{', '.join(items)}]")
     sets = ", ".join(f"{name!r}: {text}" for name, text in named.items())
     kept = "".join(f"{text}, " for text in outcome.kept)
     body.say(f"return {ACT}({number}, {behavior!r}, {action!r}, {{{sets}}}), ({kept})")

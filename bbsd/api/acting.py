@@ -153,7 +153,8 @@ class Agent:
         for slot, value in zip(self._program.kept, self._kept, strict=True):
             names = named.get(plain_name(slot.name))
             kept.append(value if names is None else names[int(value)])
-        return by_name([slot.variable for slot in self._program.kept], kept, lambda values: values)
+        variables = [slot.variable for slot in self._program.kept]
+        return by_name(variables, kept, self._program.lengths, lambda values: values)
 
     @checked(key=optional(whole(0, MOST_SEED)))
     def reset(self, *, key: int | None = None) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from bbsd.errors import UsageError
-from bbsd.expression.nesting import by_name
+from bbsd.expression.nesting import by_name, lengths_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -63,4 +63,4 @@ def values_of_robot(stored: Mapping[Slot, Value], robot: int) -> dict[str, Liste
     own: dict[Variable, Listed] = {
         slot.variable: value for slot, value in stored.items() if slot.robot in (None, robot)
     }
-    return by_name([*own], [*own.values()], tuple)
+    return by_name([*own], [*own.values()], lengths_of(own), tuple)
