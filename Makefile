@@ -9,7 +9,7 @@ PEERS := .venv-peers
 RELEASE := .venv-release
 LOWEST := .venv-lowest
 
-.PHONY: demo test quick lint unit claims worlds optimum tables arms methods fuzz faults figures bench release-check lowest clean
+.PHONY: demo test quick lint unit examples claims worlds optimum tables arms methods fuzz faults figures bench release-check lowest clean
 
 demo: $(VENV)/.demo
 	$(BIN)/bbsd design specs/object_lifting.yaml --plot
@@ -32,6 +32,10 @@ lint: $(VENV)/.test
 
 unit: $(VENV)/.test
 	$(BIN)/pytest -n 2 --dist worksteal
+
+# Property tests with other examples each time: what they find becomes a test of its own.
+examples: $(VENV)/.test
+	$(BIN)/pytest -n 2 --dist worksteal -m hypothesis --hypothesis-profile new --hypothesis-seed $$(date +%s)
 
 # What the method achieves: experiments/.
 claims: $(VENV)/.demo

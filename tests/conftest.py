@@ -13,9 +13,12 @@ os.environ.setdefault("BBSD_CACHE_DIR", str(Path(__file__).parents[1] / ".cache"
 # A shell's background process ignores interrupts, and so would all that the tests start and interrupt.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-settings.register_profile("untimed", deadline=None)  # machines differ, and a first call may compile
-settings.register_profile("quick", deadline=None, max_examples=20)
-settings.load_profile("untimed")
+# A tree passes or fails, the same on each machine; new examples are looked for with `make examples`. No deadlines:
+# machines differ, and a first call may compile.
+settings.register_profile("same", deadline=None, derandomize=True)
+settings.register_profile("quick", deadline=None, derandomize=True, max_examples=20)
+settings.register_profile("new", deadline=None, print_blob=True)
+settings.load_profile("same")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

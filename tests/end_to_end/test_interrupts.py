@@ -14,7 +14,7 @@ name: long
 environment:
   robots: 4
   steps: 1000000
-  state: {x: 0}
+  state: {x: robot}
   dynamics:
     x: sin(x + step) + sum(x[r] for r in team) / 4
 behaviors:

@@ -1,5 +1,5 @@
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from bbsd.architecture import joint_space
@@ -8,9 +8,8 @@ from bbsd.cli.export import TargetName
 from bbsd.exports.exported import Options, exported_design
 from bbsd.exports.targets import TARGETS
 from bbsd.exports.verification.comparing import cells_to_compare
-from bbsd.language.meaning import elaborate
-from bbsd.language.models import Spec
 from tests.interpreter.made_up import specs
+from tests.interpreter.made_up_meanings import meaning_made_up
 from tests.unit.architecture.designs import random_architecture
 from tests.unit.exports.designs import answers, hand_made
 
@@ -39,8 +38,7 @@ def all_ways():
 @settings(max_examples=8, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data(), seed=st.integers(0, 10**6))
 def test_made_up_designs_decide_the_same_in_every_target(target, runner, leaves, data, seed):
-    meaning, mistakes = elaborate(Spec.model_validate(data.draw(specs(most_robots=3))), seed)
-    assume(mistakes == ())
+    meaning = meaning_made_up(data.draw(specs(most_robots=3)), seed)
     exported = exported_design(meaning, random_architecture(meaning, seed))
     cells = cells_to_compare(exported, 2000)
     expected = policy_at(joint_space(meaning), exported.architecture, cells)

@@ -3,16 +3,15 @@
 from itertools import takewhile
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.kernels import kernel_source
 from bbsd.compiler.writing import loop_fission, parts, totals
-from bbsd.language.meaning import elaborate
-from bbsd.language.models import Spec
 from tests.interpreter.made_up import specs
+from tests.interpreter.made_up_meanings import meaning_made_up
 from tests.unit.compiler.robots import bits
 from tests.unit.problems import RICH, problem_of
 
@@ -34,8 +33,7 @@ def cut_bits(problem, seed):
 @settings(max_examples=10, deadline=None, suppress_health_check=list(HealthCheck))
 @given(specs(most_robots=5), st.integers(0, 2**32), st.sampled_from([1, 2]))
 def test_cutting_changes_no_bit_of_specs_that_are_made_up(data, seed, lanes):
-    meaning, _ = elaborate(Spec.model_validate(data), seed)
-    assume(meaning is not None)
+    meaning = meaning_made_up(data, seed)
 
     def problem():
         return compile_meaning(meaning, lanes=lanes, compiled=False)
