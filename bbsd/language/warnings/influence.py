@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import needed
 from bbsd.expression.syntax.mistakes import KEY, Mistake
+from bbsd.expression.syntax.tree import names_used
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,7 +39,22 @@ def uninfluenced_terms(meaning: Meaning) -> Iterator[LocatedMistake]:
         if not any(_is_influenced(node, influenced) for node in nodes):
             message = f"no behavior can change what {term} adds up to"
             advice = "let it depend on what actions change, or leave it out: it is the same for all designs"
+            for name in _set_again(meaning, term, influenced):
+                message += f": dynamics has set {name} again by then, whatever an action set it to"
+                advice = (
+                    f"keep what the term needs of {name} in a state of its own, which dynamics sets from it"
+                )
+                break
             yield ("reward", term), Mistake("BB208", message, KEY, advice)
+
+
+def _set_again(meaning: Meaning, term: str, influenced: set[Slot] | None) -> Iterator[str]:
+    """Yield the state in a term that actions set, and of which nothing is left once dynamics has set it."""
+    kept = {slot.name for slot in influenced or ()}
+    names = names_used(meaning.spec.reward[term].tree) & meaning.spec.environment.dynamics.keys() - kept
+    for slot, node in meaning.episode.acted.items():
+        if slot.name in names and _is_influenced(node, set()):
+            yield slot.name
 
 
 def _influenced(episode: Episode) -> set[Slot] | None:
