@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import SpecError, render_json, render_text
 from bbsd.language.loading import load
-from bbsd.report.github import github_text
-from bbsd.report.sarif import sarif_log
+from bbsd.report.spec.github import github_text
+from bbsd.report.spec.sarif import sarif_log
 from bbsd.text import Source, read
 from bbsd.text.writing.house_style import in_house_style
 

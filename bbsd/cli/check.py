@@ -16,7 +16,7 @@ from bbsd.report.plain import json_text
 
 if TYPE_CHECKING:
     from bbsd.language.fixing import Made
-    from bbsd.report.checked import Checked
+    from bbsd.report.spec.checked import Checked
     from bbsd.text import Source
 
 
@@ -87,7 +87,7 @@ def check(
 
 
 def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bool, every_hole: bool) -> None:
-    from bbsd.report.checked import checked_plain, checked_text
+    from bbsd.report.spec.checked import checked_plain, checked_text
 
     checked = [_checked(spec, fixing) for spec in specs]
     diagnoses = [diagnosis for each in checked for diagnosis in each.diagnoses]
@@ -100,11 +100,11 @@ def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bo
         case MistakeFormat.JSON:
             show(json_text(checked_plain(checked)))
         case MistakeFormat.GITHUB:
-            from bbsd.report.github import github_text
+            from bbsd.report.spec.github import github_text
 
             show_commands(github_text(diagnoses))
         case MistakeFormat.SARIF:
-            from bbsd.report.sarif import sarif_log
+            from bbsd.report.spec.sarif import sarif_log
 
             show(json_text(sarif_log(diagnoses)))
     if any(each.meaning is None for each in checked) or (strict and diagnoses):
@@ -114,7 +114,7 @@ def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bo
 def _checked(spec: Path, fixing: Fixing) -> "Checked":
     from bbsd.api.specs import load
     from bbsd.language.loading import load as load_source
-    from bbsd.report.checked import Checked
+    from bbsd.report.spec.checked import Checked
 
     made: tuple[Made, ...] = ()
     is_written = fixing is not Fixing.SHOWN

@@ -10,6 +10,6 @@ def config(spec: SpecFile, overrides: Overrides = None) -> None:
     Comments say where each value comes from: a line of a file, a default, or --set.
     """
     from bbsd.api.specs import load
-    from bbsd.report.configuration import configuration_text
+    from bbsd.report.spec.configuration import configuration_text
 
     show(configuration_text(load(spec, set=overrides or ())))

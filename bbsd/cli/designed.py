@@ -49,7 +49,7 @@ def show_price(
 ) -> None:
     """Print what a design costs."""
     from bbsd import api
-    from bbsd.report.price import price_plain, price_text
+    from bbsd.report.spec.price import price_plain, price_text
 
     price = api.price(loaded, seed=seed, runs=runs, lanes=lanes, jobs=jobs, starting=starting, **opening)
     show(json_text(price_plain(price)) if as_json else price_text(price))

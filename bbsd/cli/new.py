@@ -67,7 +67,7 @@ def template_text(template: Template) -> str:
 
 
 def _write(path: Path, template: Template) -> None:
-    from bbsd.report.schema import SCHEMA_FILE
+    from bbsd.report.reference.schema import SCHEMA_FILE
     from bbsd.text import Source, read, replace_blocks
 
     document = read(Source(template, template_text(template)))
@@ -80,7 +80,7 @@ def _write(path: Path, template: Template) -> None:
 
 def _schema_text() -> str:
     from bbsd.report.plain import json_text
-    from bbsd.report.schema import language_schema
+    from bbsd.report.reference.schema import language_schema
 
     return f"{json_text(language_schema())}\n"
 

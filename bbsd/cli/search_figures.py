@@ -7,7 +7,7 @@ import typer
 
 from bbsd.cli.terminal.output import require_writable_file
 from bbsd.report.figures import draw_curves, require_figure
-from bbsd.report.numbers import number
+from bbsd.report.wording.numbers import number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

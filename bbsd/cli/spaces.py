@@ -74,6 +74,6 @@ def spaces(
 
 def _show(found: "Spaces", *, as_json: bool) -> None:
     from bbsd.report.plain import json_text
-    from bbsd.report.spaces import spaces_plain, spaces_text
+    from bbsd.report.spec.spaces import spaces_plain, spaces_text
 
     show(json_text(spaces_plain(found)) if as_json else spaces_text(found))

@@ -8,9 +8,9 @@ from rich.console import Group
 from rich.text import Text
 
 from bbsd.errors import escape
-from bbsd.report.numbers import count, with_halves
 from bbsd.report.plain import interval_plain
 from bbsd.report.tables import plain_table
+from bbsd.report.wording.numbers import count, with_halves
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

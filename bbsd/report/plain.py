@@ -7,7 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, TypeAlias
 
 from bbsd.errors import inert_json
-from bbsd.report.warnings import disagreement, warnings_of
+from bbsd.report.wording.warnings import disagreement, warnings_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from bbsd.api import Progress as GenerationProgress
-from bbsd.report.bars import sparkline
-from bbsd.report.numbers import column, count, duration
+from bbsd.report.wording.bars import sparkline
+from bbsd.report.wording.numbers import column, count, duration
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -11,10 +11,10 @@ from rich.table import Table
 from rich.text import Text
 
 from bbsd.errors import escape
-from bbsd.report.bars import bar
-from bbsd.report.endings import ending_lines
-from bbsd.report.numbers import column, count, duration, percent
-from bbsd.report.warnings import disagreement, warnings_of
+from bbsd.report.wording.bars import bar
+from bbsd.report.wording.endings import ending_lines
+from bbsd.report.wording.numbers import column, count, duration, percent
+from bbsd.report.wording.warnings import disagreement, warnings_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

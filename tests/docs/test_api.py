@@ -8,7 +8,7 @@ import pytest
 
 import bbsd
 from bbsd import api
-from bbsd.report.api_reference import documented, regenerate
+from bbsd.report.reference.python import documented, regenerate
 from tests.docs.prompts import replayed
 
 PAGE = Path(__file__).parents[2] / "docs" / "api.md"

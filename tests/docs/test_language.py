@@ -8,7 +8,7 @@ import pytest
 from bbsd.language.loading import check
 from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
-from bbsd.report.reference import regenerate
+from bbsd.report.reference.language import regenerate
 from bbsd.text import Source, read
 
 PAGE = Path(__file__).parents[2] / "docs" / "language.md"

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from bbsd.language.loading import load
-from bbsd.report.size import size_text
+from bbsd.report.spec.size import size_text
 from bbsd.text import Source
 from experiments.optimum import optimum
 

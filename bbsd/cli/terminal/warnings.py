@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 def say_warnings(loaded: "Loaded") -> None:
     """Say on standard error how many warnings there are about a spec, and which command shows them."""
     if loaded.warnings:
-        from bbsd.report.checked import count_text
+        from bbsd.report.spec.checked import count_text
 
         file = escape(shlex.quote(loaded.source.file))
         say(

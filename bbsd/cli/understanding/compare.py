@@ -8,8 +8,8 @@ import typer
 import bbsd
 from bbsd.cli.options import AsFormat, AsJson, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
 from bbsd.cli.terminal.output import say, show, show_table
-from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
+from bbsd.report.wording.numbers import column
 
 if TYPE_CHECKING:
     from bbsd.explanation.comparison import Comparison

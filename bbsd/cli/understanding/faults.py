@@ -7,8 +7,8 @@ import typer
 
 import bbsd
 from bbsd.cli.terminal.output import error_console, say, show, show_table
-from bbsd.report.numbers import column
 from bbsd.report.plain import json_text
+from bbsd.report.wording.numbers import column
 
 if TYPE_CHECKING:
     from bbsd.cli.access import Stepping

@@ -10,8 +10,8 @@ from rich.text import Text
 
 from bbsd.errors import escape
 from bbsd.explanation.conditions import join_words
-from bbsd.report.numbers import changes, column, count, percent
 from bbsd.report.tables import INTERVAL, plain_table
+from bbsd.report.wording.numbers import changes, column, count, percent
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import escape
 from bbsd.report.figures.files import color, label_ends, legend, marker, panels_in_file
-from bbsd.report.numbers import number
+from bbsd.report.wording.numbers import number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

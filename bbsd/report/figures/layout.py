@@ -10,7 +10,7 @@ import numpy as np
 
 from bbsd.report.figures.files import LETTER_HEIGHT, TITLE_HEIGHT, figure_in_file, legend, set_title
 from bbsd.report.figures.panels import MOST_TERMS, draw_reward, draw_values, is_strip
-from bbsd.report.numbers import column
+from bbsd.report.wording.numbers import column
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

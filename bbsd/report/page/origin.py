@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import escape
-from bbsd.report.endings import ending_lines
+from bbsd.report.wording.endings import ending_lines
 from bbsd.version import REVISION, __version__
 
 if TYPE_CHECKING:

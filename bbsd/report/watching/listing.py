@@ -7,9 +7,9 @@ from math import isnan
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
-from bbsd.report.endings import ending_lines
-from bbsd.report.numbers import column
 from bbsd.report.plain import finite_or_none
+from bbsd.report.wording.endings import ending_lines
+from bbsd.report.wording.numbers import column
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

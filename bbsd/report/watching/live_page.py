@@ -8,8 +8,8 @@ from html import escape as escape_html
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
-from bbsd.report.numbers import column
 from bbsd.report.watching.words import fitness_text, position_text, share_done, state_line, who_text
+from bbsd.report.wording.numbers import column
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
-from bbsd.report.bars import bar, sparkline
-from bbsd.report.endings import ending_lines
-from bbsd.report.numbers import column, count
+from bbsd.report.wording.bars import bar, sparkline
+from bbsd.report.wording.endings import ending_lines
+from bbsd.report.wording.numbers import column, count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -10,8 +10,8 @@ from rich.text import Text
 
 from bbsd.errors import escape
 from bbsd.explanation.worth.results import clearly_above, clearly_below, never_changes
-from bbsd.report.numbers import column, count, percent, with_halves
 from bbsd.report.tables import INTERVAL, plain_table
+from bbsd.report.wording.numbers import column, count, percent, with_halves
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

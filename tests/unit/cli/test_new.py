@@ -8,7 +8,7 @@ import pytest
 
 from bbsd.cli.new import Template, template_text
 from bbsd.language.loading import load
-from bbsd.report.schema import SCHEMA_FILE, language_schema
+from bbsd.report.reference.schema import SCHEMA_FILE, language_schema
 from bbsd.text import Source
 from tests.unit.cli.commands import run
 

@@ -13,7 +13,7 @@ from bbsd.errors import SpecError
 from bbsd.language import lineage
 from bbsd.language.lineage import MAX_FILES, overlay
 from bbsd.language.loading import check, load
-from bbsd.report.configuration import configuration_text
+from bbsd.report.spec.configuration import configuration_text
 from bbsd.text import Source, differences, read, replace_blocks
 from tests.unit.language.specs import BASE
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from bbsd import api
-from bbsd.report.price import price_plain, price_text
+from bbsd.report.spec.price import price_plain, price_text
 from bbsd.runs.price import price as price_of
 from bbsd.solver.paper.settings import settings_of
 from tests.unit.compiler.twins import CORRIDOR_OUTSIDE, Corridor

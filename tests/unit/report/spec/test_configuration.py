@@ -5,7 +5,7 @@ from textwrap import dedent
 import pytest
 
 from bbsd.language.loading import load
-from bbsd.report.configuration import configuration_text
+from bbsd.report.spec.configuration import configuration_text
 from bbsd.text import Source, read
 
 TEXT = dedent("""\

@@ -3,7 +3,14 @@ import pytest
 from bbsd.errors import KINDS
 from bbsd.language.base import Part
 from bbsd.language.view import View
-from bbsd.report.reference import BLOCKS, SECTIONS, keys_text, mistakes_text, regenerate, warnings_text
+from bbsd.report.reference.language import (
+    BLOCKS,
+    SECTIONS,
+    keys_text,
+    mistakes_text,
+    regenerate,
+    warnings_text,
+)
 
 
 def subclasses(part):

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity
-from bbsd.report.github import github_text
+from bbsd.report.spec.github import github_text
 
 
 def test_a_diagnosis_is_one_command():

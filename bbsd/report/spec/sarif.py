@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from bbsd.errors import KINDS
-from bbsd.report.github import message_text
+from bbsd.report.spec.github import message_text
 from bbsd.version import __version__
 
 if TYPE_CHECKING:

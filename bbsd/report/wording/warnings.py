@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.report.numbers import count, number
+from bbsd.report.wording.numbers import count, number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from bbsd.errors import Severity, escape, render_json, render_text
 from bbsd.errors.rendering import UNREAD
-from bbsd.report.numbers import count
-from bbsd.report.open import open_line, open_list, open_plain
-from bbsd.report.size import size_text
+from bbsd.report.spec.open import open_line, open_list, open_plain
+from bbsd.report.spec.size import size_text
+from bbsd.report.wording.numbers import count
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from bbsd.report.open import open_line, open_list, open_plain
+from bbsd.report.spec.open import open_line, open_list, open_plain
 from tests.unit.language.specs import meaning_of
 
 MORE = "go: {actions: {move: {speed: 1}}}, wait: {actions: {rest: {speed: 0}}}"

@@ -5,7 +5,7 @@ from math import inf, nan
 import pytest
 
 from bbsd.evaluation import Interval
-from bbsd.report.numbers import changes, column, count, duration, number, percent, with_halves
+from bbsd.report.wording.numbers import changes, column, count, duration, number, percent, with_halves
 
 
 @pytest.mark.parametrize(

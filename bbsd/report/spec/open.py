@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bbsd.errors import escape
 from bbsd.language.meaning.holes import holes_of
 from bbsd.language.meaning.size import size_of
-from bbsd.report.numbers import count
+from bbsd.report.wording.numbers import count
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

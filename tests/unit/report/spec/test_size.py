@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from bbsd.language.loading import load
-from bbsd.report.size import size_text
+from bbsd.report.spec.size import size_text
 from bbsd.text import Source
 
-SPECS = Path(__file__).parents[3] / "specs"
+SPECS = Path(__file__).parents[4] / "specs"
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from math import inf, nan
 
 import pytest
 
-from bbsd.report.bars import bar, sparkline
+from bbsd.report.wording.bars import bar, sparkline
 
 
 def test_a_sparkline_rises_with_its_values():

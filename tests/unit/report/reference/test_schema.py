@@ -9,10 +9,10 @@ import jsonschema
 import pytest
 
 from bbsd.report.plain import json_text
-from bbsd.report.schema import SCHEMA_FILE, language_schema
+from bbsd.report.reference.schema import SCHEMA_FILE, language_schema
 from bbsd.text import Source, read
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 SHIPPED = [*sorted((ROOT / "specs").rglob("*.yaml")), *sorted((ROOT / "bbsd/cli/templates").glob("*.yaml"))]
 VALID = sorted((ROOT / "tests/specs/valid").glob("*.yaml"))
 OF_FORM = re.compile(r"BB02[0-467]")

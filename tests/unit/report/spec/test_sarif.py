@@ -1,8 +1,8 @@
 from __future__ import annotations
 
 from bbsd.errors import KINDS, Correction, Diagnosis, DiagnosisKind, Edit, Place, Severity
-from bbsd.report import sarif
-from bbsd.report.sarif import sarif_log
+from bbsd.report.spec import sarif
+from bbsd.report.spec.sarif import sarif_log
 
 DIAGNOSIS = Diagnosis("BB020", "unexpected key", Place("my specs/a.yaml", 3, 5, 4))
 

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.report.api_reference import documented, fields_text, regenerate, signature_text
+from bbsd.report.reference.python import documented, fields_text, regenerate, signature_text
 
 
 def measure(spec: str, *more: int, episodes: int = 1000, fill: str = "random") -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.language.meaning.size import size_of
-from bbsd.report.numbers import count
+from bbsd.report.wording.numbers import count
 
 if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning

@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from bbsd.errors import escape
-from bbsd.report.numbers import count, duration
+from bbsd.report.wording.numbers import count, duration
 
 if TYPE_CHECKING:
     from bbsd.report.plain import Plain
