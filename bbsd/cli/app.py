@@ -7,16 +7,10 @@ from typing import Annotated
 
 import typer
 
-from bbsd.cli.check import check
-from bbsd.cli.compile import compile_
-from bbsd.cli.config import config
-from bbsd.cli.design import design
+from bbsd.cli.designing.design import design
 from bbsd.cli.doctor import doctor
 from bbsd.cli.evaluate import evaluate
 from bbsd.cli.export import export
-from bbsd.cli.fmt import fmt
-from bbsd.cli.new import new
-from bbsd.cli.schema import schema
 from bbsd.cli.spaces import spaces
 from bbsd.cli.terminal.guidance import Commands
 from bbsd.cli.terminal.interrupts import stoppable
@@ -31,6 +25,12 @@ from bbsd.cli.understanding.tidy import tidy
 from bbsd.cli.understanding.watch import watch
 from bbsd.cli.understanding.why import why
 from bbsd.cli.understanding.worth import worth
+from bbsd.cli.writing.check import check
+from bbsd.cli.writing.compile import compile_
+from bbsd.cli.writing.config import config
+from bbsd.cli.writing.fmt import fmt
+from bbsd.cli.writing.new import new
+from bbsd.cli.writing.schema import schema
 from bbsd.version import __version__
 
 GC_THRESHOLD = 100_000

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.access import stepping
 from bbsd.cli.options import (
     AllowImport,
     AsFormat,
@@ -24,6 +23,7 @@ from bbsd.cli.options import (
     StepLimit,
     read_episode,
 )
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.output import (
     error_console,
     has_blocks,

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.access import access
 from bbsd.cli.options import (
     AllowImport,
     AsFormat,
@@ -16,6 +15,7 @@ from bbsd.cli.options import (
     StepLimit,
     spec_files,
 )
+from bbsd.cli.terminal.access import access
 from bbsd.cli.terminal.output import show
 
 if TYPE_CHECKING:

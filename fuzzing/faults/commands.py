@@ -155,7 +155,7 @@ def prepare(folder: Path) -> Path:
         RuntimeError: this process has several threads, of which a fork would keep only one.
     """
     import bbsd.api
-    import bbsd.cli.design
+    import bbsd.cli.designing.design
     import bbsd.report.progress
     import bbsd.report.tables
     import bbsd.runs.workers

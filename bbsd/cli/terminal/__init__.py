@@ -1,1 +1,1 @@
-"""What serves all commands: streams that end no command, what is shown, mistakes, Ctrl-C."""
+"""What serves all commands: streams that end no command, what is shown, what may be imported, mistakes, Ctrl-C."""

@@ -11,7 +11,7 @@ from bbsd.report.plain import json_text
 from bbsd.report.wording.numbers import column
 
 if TYPE_CHECKING:
-    from bbsd.cli.access import Stepping
+    from bbsd.cli.terminal.access import Stepping
     from bbsd.language.loading import Loaded
 
 TOO_LOW = 1

@@ -3,8 +3,8 @@ from contextlib import contextmanager
 import pytest
 import typer
 
-from bbsd.cli import workers
-from bbsd.cli.workers import EngineName, chosen_engine, require_engine
+from bbsd.cli.designing import workers
+from bbsd.cli.designing.workers import EngineName, chosen_engine, require_engine
 
 
 def test_a_scheduler_is_one_of_dask():

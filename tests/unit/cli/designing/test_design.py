@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.cli.continuing import resume_command
+from bbsd.cli.designing.continuing import resume_command
 
 
 @pytest.mark.parametrize(

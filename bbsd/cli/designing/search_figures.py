@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bbsd.api import Designed
-    from bbsd.cli.access import Stepping
+    from bbsd.cli.terminal.access import Stepping
 
 CURVES = "curves.png"
 """The figure in the folder of a design."""

@@ -1,7 +1,7 @@
 import pytest
 import typer
 
-from bbsd.cli.budget import read_budget, read_seeds
+from bbsd.cli.designing.budget import read_budget, read_seeds
 
 
 @pytest.mark.parametrize(

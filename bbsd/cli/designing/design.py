@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from bbsd.cli.access import stepping
-from bbsd.cli.budget import read_budget, read_seeds, read_time
-from bbsd.cli.continuing import former_design, say_how_to_continue
-from bbsd.cli.designed import show_design, show_price, show_seeds
+from bbsd.cli.designing.budget import read_budget, read_seeds, read_time
+from bbsd.cli.designing.continuing import former_design, say_how_to_continue
+from bbsd.cli.designing.designed import show_design, show_price, show_seeds
+from bbsd.cli.designing.search_figures import CURVES, draw_search, require_figures
+from bbsd.cli.designing.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 from bbsd.cli.options import (
     AllowImport,
     AsFormat,
@@ -23,11 +24,10 @@ from bbsd.cli.options import (
     StepLimit,
     spec_files,
 )
-from bbsd.cli.search_figures import CURVES, draw_search, require_figures
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.interrupts import INTERRUPTED
 from bbsd.cli.terminal.output import error_console, leave_now, say
 from bbsd.cli.terminal.warnings import say_warnings
-from bbsd.cli.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 
 if TYPE_CHECKING:
     from bbsd.api import Designed

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tests.unit.cli.commands import run
 
-SPECS = Path(__file__).parents[2] / "specs"
+SPECS = Path(__file__).parents[3] / "specs"
 WRONG, RIGHT = SPECS / "invalid/BB020_behavior.yaml", SPECS / "mended/BB201_unused.yaml"
 ODD = SPECS / "warned/BB201_unused.yaml"
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from bbsd.api import Designed
-    from bbsd.cli.access import Stepping
+    from bbsd.cli.terminal.access import Stepping
     from bbsd.language.loading import Loaded
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.cli.new import Template, template_text
+from bbsd.cli.writing.new import Template, template_text
 from bbsd.language.loading import load
 from bbsd.report.reference.schema import SCHEMA_FILE, language_schema
 from bbsd.text import Source
