@@ -35,9 +35,9 @@ from bbsd.cli.terminal.output import (
 from bbsd.cli.terminal.warnings import say_warnings
 from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
-from bbsd.files import write_text_whole
 from bbsd.report.figures import draw_episode, names_to_show, require_figure, require_names
 from bbsd.report.plain import evaluation_plain, json_text
+from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation, Rank, Trace
@@ -249,13 +249,13 @@ def _write_returns(evaluation: "Evaluation", path: Path | None) -> None:
     if path and evaluation.each is not None:
         from bbsd.report.csv_text import returns_text
 
-        write_text_whole(path, returns_text(evaluation.each), through_links=True)
+        write_result_text(path, returns_text(evaluation.each))
 
 
 def _write_trace(traced: "Trace", path: Path, form: TraceFormat) -> None:
     from bbsd.report.csv_text import csv_text
 
-    write_text_whole(path, csv_text(traced, long=form is TraceFormat.LONG), through_links=True)
+    write_result_text(path, csv_text(traced, long=form is TraceFormat.LONG))
 
 
 def _number_of(rank: "Rank", evaluation: "Evaluation") -> int:

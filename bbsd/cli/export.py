@@ -10,7 +10,7 @@ import bbsd
 from bbsd.cli.options import DesignFile, Overrides, Seed
 from bbsd.cli.terminal.output import require_writable_file, say, show
 from bbsd.errors import escape
-from bbsd.files import write_text_whole
+from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.api.exporting import Export
@@ -117,5 +117,5 @@ def _write(exported: "Export", out: Path | None) -> None:
     if out is None:
         show(exported.text)
         return
-    write_text_whole(out, exported.text, through_links=True)
+    write_result_text(out, exported.text)
     say(f"wrote {escape(str(out))}")

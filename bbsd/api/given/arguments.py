@@ -207,6 +207,7 @@ RULES: Mapping[str, Rule] = {
     "exact": truth,
     "faults": texts,
     "fill": optional(one_of("random")),
+    "finish": optional(function),
     "gymnasium": optional(text),
     "import_from": paths,
     "interval": number(above=0),

@@ -73,6 +73,7 @@ def design(
     note: Callable[[str], object] | None = None,
     start: AnySpec | Sequence[AnySpec] = (),
     time_limit: float | None = None,
+    finish: Callable[[Designed], object] | None = None,
 ) -> Designed:
     """Fill the holes of a spec; where a folder is named, write the design and its metrics into it.
 
@@ -115,6 +116,7 @@ def design(
 
         time_limit: Seconds after which the searches end, with their final races; where runs go one after another, each
             has its part. The result cannot be reproduced, and `more` goes on.
+        finish: Called with the result while its folder is still locked, so that nobody else writes there meanwhile.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
@@ -156,7 +158,7 @@ def design(
     wanted = Wanted(folder_wanted, new_below, resume, bool(known))
     with (
         place_of(wanted, loaded, identity(loaded, seed, runs, environment_identity)) as folder,
-        only_writer(folder),
+        only_writer(folder.path),
     ):
         if resume:
             beginnings = resumed_beginnings(known, folder, problem, seed, note)
@@ -184,7 +186,10 @@ def design(
             origin_of(loaded, opened, beginnings),
         )
         kept = Kept(loaded, fickle, is_written=wanted.is_kept)
-        return carried_out(command, kept, Means(jobs, engine, progress, overdue, rivals), stopwatch)
+        designed = carried_out(command, kept, Means(jobs, engine, progress, overdue, rivals), stopwatch)
+        if finish is not None:
+            finish(designed)
+        return designed
 
 
 def _side_by_side(jobs: int, engine: Engine | None) -> int:

@@ -1,6 +1,8 @@
 """`bbsd design`."""
 
 import time
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +11,7 @@ import typer
 from bbsd.cli.designing.budget import read_budget, read_seeds, read_time
 from bbsd.cli.designing.continuing import former_design, say_how_to_continue
 from bbsd.cli.designing.designed import show_design, show_price, show_seeds
-from bbsd.cli.designing.search_figures import CURVES, draw_search, require_figures
+from bbsd.cli.designing.search_figures import Additions
 from bbsd.cli.designing.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 from bbsd.cli.options import (
     AllowImport,
@@ -30,7 +32,11 @@ from bbsd.cli.terminal.output import error_console, leave_now, say
 from bbsd.cli.terminal.warnings import say_warnings
 
 if TYPE_CHECKING:
-    from bbsd.api import Designed
+    from collections.abc import Callable
+
+    from rich.console import Console
+
+    from bbsd.api import Designed, Interrupted
     from bbsd.language.loading import Loaded
 
 LEAST_BUDGET = 5_000
@@ -184,8 +190,8 @@ def design(
     as_json = as_json or form is ResultFormat.JSON
     opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     require_engine(engine, scheduler)
-    require_figures(plot, plot_to, plot_beside, seed)
-    _make_folder(tensorboard)
+    additions = Additions(plot, plot_to, plot_beside, tensorboard, opening)
+    additions.require(seed, out, several=seeds is not None)
     (set_by_budget, within), limit = read_budget(budget), read_time(time_limit)
     overrides, resume = [*(overrides or ()), *set_by_budget], resume or more is not None
     if spec.is_dir():
@@ -211,14 +217,21 @@ def design(
 
         console = error_console()
 
-        def leave(stopped: api.Interrupted) -> None:
-            """End the process at once: what was written is complete."""
-            console.show_cursor()
-            say_how_to_continue(stopped, begin="\n" if console.is_terminal and not quiet else "")
-            leave_now(INTERRUPTED)
+        def design_one(
+            loaded: "Loaded",
+            seed: int,
+            out: Path | None,
+            finish: "Callable[[Designed], object]",
+            *,
+            resume: bool,
+        ) -> "Designed":
+            with ExitStack() as showing:
+                listener = showing.enter_context(generation_listener(console, quiet=quiet))
 
-        def design_one(loaded: "Loaded", seed: int, out: Path | None, *, resume: bool) -> "Designed":
-            with generation_listener(console, quiet=quiet) as listener:
+                def finished(designed: "Designed") -> None:
+                    showing.close()
+                    finish(designed)
+
                 return api.design(
                     loaded,
                     seed=seed,
@@ -232,32 +245,52 @@ def design(
                     within=within,
                     rivals=_rivals(rival, loaded, every=compare_methods),
                     progress=listener,
-                    overdue=leave,
+                    overdue=partial(_leave, console, quiet=quiet),
                     engine=workers,
                     start=start or (),
                     time_limit=limit,
+                    finish=finished,
                     **opening,
                 )
 
+        finish = partial(
+            _show_and_add,
+            additions=additions,
+            seed=seed,
+            runs=runs,
+            by_time=within is not None,
+            as_json=as_json,
+        )
+        base = out or RUNS / f"{spec.stem}-seeds{seeds}"
         try:
-            if seeds is not None:
-                base = out or RUNS / f"{spec.stem}-seeds{seeds}"
-                several = {}
-                for each in read_seeds(seeds):
-                    part = base / f"seed-{each}"
-                    text = load(spec, seed=each, set=overrides)
-                    several[each] = design_one(text, each, part, resume=resume and part.exists())
-                    _write_events(several[each], tensorboard and tensorboard / f"seed-{each}")
-                show_seeds(several, as_json=as_json)
+            if seeds is None:
+                design_one(loaded, seed, out, finish, resume=resume)
                 return
-            designed = design_one(loaded, seed, out, resume=resume)
+            several = {}
+            for each in read_seeds(seeds):
+                part = base / f"seed-{each}"
+                text = load(spec, seed=each, set=overrides)
+                add = partial(additions.add, seed=each, part=part.name)
+                several[each] = design_one(text, each, part, add, resume=resume and part.exists())
+            show_seeds(several, as_json=as_json)
         except api.Interrupted as stopped:
             say_how_to_continue(stopped, out=out if seeds is None else base)
             raise typer.Exit(INTERRUPTED) from None
-    show_design(designed, seed, runs, by_time=within is not None, as_json=as_json)
-    figures = [*([designed.folder / CURVES] if plot else []), *([plot_to] if plot_to else [])]
-    draw_search(designed, loaded.spec.name, seed, plot_beside, figures, opening)
-    _write_events(designed, tensorboard)
+
+
+def _show_and_add(
+    designed: "Designed", additions: Additions, seed: int, runs: int, *, by_time: bool, as_json: bool
+) -> None:
+    """Show the result first: matplotlib takes longer than a small design."""
+    show_design(designed, seed, runs, by_time=by_time, as_json=as_json)
+    additions.add(designed, seed)
+
+
+def _leave(console: "Console", stopped: "Interrupted", *, quiet: bool) -> None:
+    """End the process at once: what was written is complete."""
+    console.show_cursor()
+    say_how_to_continue(stopped, begin="\n" if console.is_terminal and not quiet else "")
+    leave_now(INTERRUPTED)
 
 
 def _rivals(name: str | None, loaded: "Loaded", *, every: bool) -> tuple[str, ...]:
@@ -278,18 +311,3 @@ def _say_which_method(loaded: "Loaded") -> None:
             f"the spec has {keys} and names no method, so it is designed by the paper's loop (method: paper); "
             "method: auto would search with several methods on one budget (--set design.method=auto)"
         )
-
-
-def _make_folder(folder: Path | None) -> None:
-    """Make a folder that is wanted, before time is spent on what comes into it."""
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-
-
-def _write_events(designed: "Designed", folder: Path | None) -> None:
-    if folder is None:
-        return
-    from bbsd.report.watching.events import EventFiles
-    from bbsd.runs.storage.watching import look
-
-    EventFiles(folder).update(look(designed.folder))

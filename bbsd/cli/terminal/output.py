@@ -83,7 +83,12 @@ def has_color(stream: TextIO) -> bool:
 
 
 def require_writable_file(path: Path) -> None:
-    """Raise OSError if no file can be written at a path, before time is spent on its content."""
+    """Find out whether a file can be written at a path before time is spent on its content.
+
+    Raises:
+        OSError: it cannot.
+        FileInFolderInUse: it is in the folder of a run that another process writes.
+    """
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     folder = path.parent
@@ -91,3 +96,7 @@ def require_writable_file(path: Path) -> None:
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
     if not os.access(path if path.exists() else folder, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+    from bbsd.runs.storage.lock import writer_of
+
+    with writer_of(path):
+        pass

@@ -9,7 +9,7 @@ import bbsd
 from bbsd.cli.options import DesignFile, Overrides, Seed, spec_files
 from bbsd.cli.terminal.output import error_console, require_writable_file, show
 from bbsd.errors import escape
-from bbsd.files import write_text_whole
+from bbsd.runs.storage.lock import write_result_text
 
 
 def report(
@@ -59,5 +59,5 @@ def report(
         )
     from bbsd.report.page import page_text
 
-    write_text_whole(output, page_text(page), through_links=True)
+    write_result_text(output, page_text(page))
     show(escape(str(output)))

@@ -10,7 +10,7 @@ import bbsd
 from bbsd.cli.options import DesignFile
 from bbsd.cli.terminal.output import require_writable_file, say, show
 from bbsd.errors import escape
-from bbsd.files import write_text_whole
+from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.architecture.shorter import Shortened, Shorter
@@ -49,7 +49,7 @@ def tidy(
     if check:
         raise typer.Exit(CAN_BE_SHORTER if found.is_changed else 0)
     if out is not None:
-        write_text_whole(out, found.text, through_links=True)
+        write_result_text(out, found.text)
         say(f"wrote {escape(str(out))}")
     elif not diff:
         show(found.text)

@@ -11,8 +11,8 @@ from bbsd.cli.options import AsJson, spec_files
 from bbsd.cli.terminal.mistakes import MISTAKE
 from bbsd.cli.terminal.output import diff_text, has_color, say, show, show_commands
 from bbsd.errors import KINDS, SpecError, describe, did_you_mean
-from bbsd.files import write_text_whole
 from bbsd.report.plain import json_text
+from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.language.fixing import Made
@@ -144,7 +144,7 @@ def _fixed(spec: Path, fixing: Fixing) -> "tuple[Source, tuple[Made, ...]]":
     else:
         has_mark = spec.read_bytes().startswith(BYTE_ORDER_MARK.encode())
         text = BYTE_ORDER_MARK * has_mark + result.source.text
-        write_text_whole(spec, text, through_links=True)
+        write_result_text(spec, text)
     return result.source, result.made
 
 

@@ -9,7 +9,7 @@ from bbsd.cli.options import spec_files
 from bbsd.cli.terminal.mistakes import show_mistake
 from bbsd.cli.terminal.output import diff_text, say, show
 from bbsd.errors import SpecError, escape
-from bbsd.files import write_text_whole
+from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.text import Source
@@ -57,7 +57,7 @@ def _format(spec: Path, *, check: bool, diff: bool) -> int:
     if check:
         say(f"{escape(str(spec))} is not formatted")
     elif not diff:
-        write_text_whole(spec, formatted, through_links=True)
+        write_result_text(spec, formatted)
         say(f"formatted {escape(str(spec))}")
     return WOULD_CHANGE if check else 0
 

@@ -12,6 +12,8 @@ import typer
 from bbsd.cli.options import SUFFIXES
 from bbsd.cli.terminal.output import say, show
 from bbsd.errors import UsageError, escape
+from bbsd.files import write_text_whole
+from bbsd.runs.storage.lock import writer_of
 
 MAX_NAME_LENGTH = 100
 """Characters of a spec's name, at most, as the language allows."""
@@ -86,8 +88,13 @@ def _schema_text() -> str:
 
 
 def _create(path: Path, text: str) -> None:
-    try:
-        with path.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-    except FileExistsError:
-        raise AlreadyExists(f"{path} already exists") from None
+    with writer_of(path):
+        try:
+            path.touch(exist_ok=False)
+        except FileExistsError:
+            raise AlreadyExists(f"{path} already exists") from None
+        try:
+            write_text_whole(path, text)
+        except BaseException:
+            path.unlink()
+            raise

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, filterwarnings
 
 from bbsd.errors import UsageError, escape
-from bbsd.files import write_whole
+from bbsd.runs.storage.lock import write_result
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -128,7 +128,7 @@ def _save(figure: Figure, path: Path) -> None:
     suffix = path.suffix.lower()
     drawn = BytesIO()
     figure.savefig(drawn, format=suffix[1:], dpi=150, metadata=METADATA[suffix])
-    write_whole(path, drawn.getvalue(), through_links=True)
+    write_result(path, drawn.getvalue())
 
 
 def legend(panel: Axes) -> None:

@@ -11,6 +11,7 @@ import struct
 from typing import TYPE_CHECKING
 
 from bbsd.files import NO_FOLLOW, write_all, write_whole
+from bbsd.runs.storage.lock import writer_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -45,11 +46,12 @@ class EventFiles:
 
     def _write(self, path: Path, lines: Sequence[Mapping[str, Any]]) -> None:
         written = self._written.get(path)
-        if written is not None and tuple(lines[: len(written)]) == tuple(written):
-            _append(path, events(lines[len(written) :]))
-        else:
-            path.parent.mkdir(exist_ok=True)
-            write_whole(path, event_file(lines))
+        with writer_of(path):
+            if written is not None and tuple(lines[: len(written)]) == tuple(written):
+                _append(path, events(lines[len(written) :]))
+            else:
+                path.parent.mkdir(exist_ok=True)
+                write_whole(path, event_file(lines))
         self._written[path] = lines
 
 

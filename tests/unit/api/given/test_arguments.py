@@ -56,6 +56,7 @@ BAD = {
     "exact": TRUTHS,
     "faults": [("behavior=stop:silent", "is a list of texts, not one text")],
     "fill": [("zeros", "fill is 'random', not 'zeros'"), (True, "fill is 'random', not True")],
+    "finish": FUNCTION,
     "gymnasium": [(3, "is a text, not 3")],
     "import_from": [(".", "is a list of paths, not"), ([3], "is a path, not 3")],
     "interval": above_zero(),
