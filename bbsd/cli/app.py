@@ -7,30 +7,11 @@ from typing import Annotated
 
 import typer
 
-from bbsd.cli.designing.design import design
-from bbsd.cli.doctor import doctor
-from bbsd.cli.evaluate import evaluate
-from bbsd.cli.export import export
-from bbsd.cli.spaces import spaces
 from bbsd.cli.terminal.guidance import Commands
-from bbsd.cli.terminal.interrupts import stoppable
+from bbsd.cli.terminal.late import Listed
 from bbsd.cli.terminal.mistakes import show_mistake
 from bbsd.cli.terminal.output import say
 from bbsd.cli.terminal.streams import steady_streams
-from bbsd.cli.understanding.compare import compare
-from bbsd.cli.understanding.explain import explain
-from bbsd.cli.understanding.report import report
-from bbsd.cli.understanding.runs import runs
-from bbsd.cli.understanding.tidy import tidy
-from bbsd.cli.understanding.watch import watch
-from bbsd.cli.understanding.why import why
-from bbsd.cli.understanding.worth import worth
-from bbsd.cli.writing.check import check
-from bbsd.cli.writing.compile import compile_
-from bbsd.cli.writing.config import config
-from bbsd.cli.writing.fmt import fmt
-from bbsd.cli.writing.new import new
-from bbsd.cli.writing.schema import schema
 from bbsd.version import __version__
 
 GC_THRESHOLD = 100_000
@@ -38,39 +19,72 @@ GC_THRESHOLD = 100_000
 NO = 1
 """The exit code for the answer no, and for a result that could not be written."""
 
+LISTED = {
+    "new": Listed("bbsd.cli.writing.new:new", "Write a small spec that runs, as a start for your own."),
+    "design": Listed(
+        "bbsd.cli.designing.design:design", "Fill the holes of a spec.", handles_interrupts=True
+    ),
+    "evaluate": Listed("bbsd.cli.evaluate:evaluate", "Measure the return of a design."),
+    "spaces": Listed(
+        "bbsd.cli.spaces:spaces", "Show what an environment stepped in Python observes and takes."
+    ),
+    "explain": Listed(
+        "bbsd.cli.understanding.explain:explain", "Describe what a design does by the shortest rules."
+    ),
+    "why": Listed("bbsd.cli.understanding.why:why", "Say why a robot did what it did in a step."),
+    "tidy": Listed("bbsd.cli.understanding.tidy:tidy", "Offer a design in fewer words that does the same."),
+    "worth": Listed(
+        "bbsd.cli.understanding.worth:worth",
+        "Measure what each behavior, layer and rule of a design is worth.",
+    ),
+    "compare": Listed("bbsd.cli.understanding.compare:compare", "Show how designs differ."),
+    "report": Listed("bbsd.cli.understanding.report:report", "Write one page on a design."),
+    "runs": Listed(
+        "bbsd.cli.understanding.runs:runs", "List runs with their state, and what came out so far."
+    ),
+    "watch": Listed(
+        "bbsd.cli.understanding.watch:watch",
+        "Show how far a run is, until it ends.",
+        handles_interrupts=True,
+    ),
+    "export": Listed(
+        "bbsd.cli.export:export",
+        "Write a design in another language, to be used in a program of your own.",
+    ),
+    "check": Listed(
+        "bbsd.cli.writing.check:check",
+        "Report all mistakes in specs, each at its line and column, and what they probably do not mean to say.",
+    ),
+    "fmt": Listed(
+        "bbsd.cli.writing.fmt:fmt", "Format specs in one style: indentation, spaces, blank lines and quotes."
+    ),
+    "config": Listed("bbsd.cli.writing.config:config", "Print a spec with all defaults filled in."),
+    "compile": Listed(
+        "bbsd.cli.writing.compile:compile_", "Print the kernel that a spec is compiled to, as Python source."
+    ),
+    "schema": Listed("bbsd.cli.writing.schema:schema", "Print the JSON Schema of the language, for editors."),
+    "doctor": Listed(
+        "bbsd.cli.doctor:doctor", "Check the installation: versions, cores, caches, a test result."
+    ),
+    "version": Listed("bbsd.cli.version:version", "Show the version."),
+}
+"""All commands, in the order in which --help lists them."""
+
+
+class _Bbsd(Commands):
+    """The commands of bbsd."""
+
+    listed = LISTED
+
+
 app = typer.Typer(
     name="bbsd",
-    cls=Commands,
+    cls=_Bbsd,
     no_args_is_help=True,
     rich_markup_mode=None,  # with it, every --help would import rich: 0.28 s instead of 0.10 s
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command()(stoppable(new))
-app.command()(design)
-app.command()(stoppable(evaluate))
-app.command()(stoppable(spaces))
-app.command()(stoppable(explain))
-app.command()(stoppable(why))
-app.command()(stoppable(tidy))
-app.command()(stoppable(worth))
-app.command()(stoppable(compare))
-app.command()(stoppable(report))
-app.command()(stoppable(runs))
-app.command()(watch)
-app.command()(stoppable(export))
-app.command()(stoppable(check))
-app.command()(stoppable(fmt))
-app.command()(stoppable(config))
-app.command("compile")(stoppable(compile_))
-app.command()(stoppable(schema))
-app.command()(stoppable(doctor))
-
-
-@app.command()
-def version() -> None:
-    """Show the version."""
-    typer.echo(f"bbsd {__version__}")
 
 
 def _show_version(wanted: bool) -> None:

@@ -6,15 +6,18 @@ import re
 import shlex
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import typer
 from typer.core import TyperGroup
 
+from bbsd.cli.terminal.late import LateCommands
 from bbsd.errors import inert, nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
+
+    from bbsd.cli.terminal.late import Listed
 
 MEANT = {
     "run": "design",
@@ -49,6 +52,22 @@ NotUnderstood = cast("type[Exception]", typer.BadParameter.__mro__[1])
 
 class Commands(TyperGroup):
     """The commands; a command line that is not understood is answered by the one that is probably meant."""
+
+    listed: ClassVar[Mapping[str, Listed]] = {}
+
+    def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - Typer's own types
+        super().__init__(**settings)
+        self.commands = cast("Any", LateCommands(self.listed))
+
+    def list_commands(self, ctx: Any) -> list[str]:  # noqa: ANN401, ARG002 - Typer's own types
+        """Return the names of the commands, in the order of the list."""
+        return [*self.listed]
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ANN401, ARG002 - Typer's own types
+        """Write the list of commands as Typer does, but from their sentences, without importing them."""
+        width = formatter.width - 6 - max(map(len, self.listed))
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, each.short_help(width)) for name, each in self.listed.items()])
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:  # noqa: ANN401 - Typer's own types
         """Return the command of a command line; raise Typer's usage error with what is probably meant."""

@@ -31,7 +31,7 @@ LONG_KEYS = frozenset({"table"})  # keys whose texts may be as long as the file
 MAX_NUMBER = 100  # characters
 LEADING_ZERO = re.compile("[-+]?0[0-9]")
 TOO_DEEP = f"this is nested more than {MAX_DEPTH} levels deep"
-UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+UNPRINTABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff]")
 LINE_SEPARATORS = frozenset("\x85\u2028\u2029")  # new lines for the parser, and for nobody who reads the text
 
 
