@@ -28,13 +28,13 @@ from bbsd.compiler import compile_meaning
 from bbsd.engines.units import Result, Unit
 from bbsd.runs.command import Command
 from bbsd.runs.origin import origin_of
-from bbsd.runs.portions import STATE, advance
-from bbsd.runs.remote import RemoteRun
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.folder import Folder
 from bbsd.runs.storage.identity import identity
 from bbsd.runs.storage.state import RUN
-from bbsd.runs.workers import side_by_side
+from bbsd.runs.workers.portions import STATE, advance
+from bbsd.runs.workers.remote import RemoteRun
+from bbsd.runs.workers.side_by_side import side_by_side
 from bbsd.solver.paper.settings import settings_of
 from bbsd.stopping import stop_request_of_context
 from experiments.designs import SPECS

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
     from bbsd.architecture.visits import Visits
     from bbsd.evaluation import Evaluation, Interval
-    from bbsd.runs.endings import Ending
+    from bbsd.runs.outcome.endings import Ending
+    from bbsd.runs.outcome.visits import Unvisited
     from bbsd.runs.rivals import Rival
-    from bbsd.runs.visits import Unvisited
     from bbsd.solver.judgement import Selection
 
 AnyProgress: TypeAlias = "Progress | SearchProgress"

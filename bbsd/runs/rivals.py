@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bbsd.files import make_folder
-from bbsd.runs.answers import complete_runs
-from bbsd.runs.joint_policy import joint_policy_returns
+from bbsd.runs.outcome.joint_policy import joint_policy_returns
 from bbsd.runs.rival_command import PAPER, rival_command
 from bbsd.runs.searching import UnsuitableMethod
 from bbsd.runs.storage.state import Searching
+from bbsd.runs.workers.answers import complete_runs
 from bbsd.solver.judgement import best_of, fresh_returns
 from bbsd.solver.methods.registry import METHODS
 

@@ -80,8 +80,8 @@ class Trial:
 
     def _begin(self, system: System | None) -> None:
         """Prepare a process of a command: its worker, then what disturbs it and not the worker."""
-        from bbsd.runs import remote
         from bbsd.runs.storage import records
+        from bbsd.runs.workers import remote
 
         if self.case.jobs > 1:
             ForkedWorker().install()

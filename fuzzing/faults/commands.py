@@ -158,7 +158,7 @@ def prepare(folder: Path) -> Path:
     import bbsd.cli.designing.design
     import bbsd.report.progress
     import bbsd.report.tables
-    import bbsd.runs.workers
+    import bbsd.runs.workers.side_by_side
 
     spec = folder / "guess.yaml"
     spec.write_text(SPEC, encoding="utf-8")

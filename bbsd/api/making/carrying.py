@@ -9,15 +9,15 @@ from bbsd.api.making.interrupting import interruptible
 from bbsd.api.results import AnyProgress, Designed, Interrupted, Progress, SearchProgress
 from bbsd.architecture import designed_text, tidy_tables
 from bbsd.evaluation.visits import visits_after_design
-from bbsd.runs.answers import complete_runs
-from bbsd.runs.endings import endings
-from bbsd.runs.joint_policy import joint_policy_returns
+from bbsd.runs.outcome.endings import endings
+from bbsd.runs.outcome.joint_policy import joint_policy_returns
+from bbsd.runs.outcome.visits import unvisited
 from bbsd.runs.rival_command import paper_episodes
 from bbsd.runs.rivals import each_run, rival, spent
 from bbsd.runs.searching import ANSWER
 from bbsd.runs.storage.folder import DIGEST, digest_of
 from bbsd.runs.storage.visits import write_visits
-from bbsd.runs.visits import unvisited
+from bbsd.runs.workers.answers import complete_runs
 from bbsd.solver.judgement import judge
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from bbsd.language.loading import loaded_again
 from bbsd.runs.beginnings import solver_starts
 from bbsd.runs.command import Command
 from bbsd.runs.origin import origin_of
-from bbsd.runs.pace import budget_of
+from bbsd.runs.pricing.pace import budget_of
 from bbsd.runs.storage.identity import identity
 from bbsd.runs.storage.lock import only_writer
 from bbsd.runs.storage.unused import remove_parts

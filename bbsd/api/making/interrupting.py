@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.results import BestSoFar, Interrupted
 from bbsd.architecture import designed_text, tidy_tables
-from bbsd.runs.interim import best_so_far
+from bbsd.runs.outcome.interim import best_so_far
 from bbsd.runs.signals import interrupts_request_stop
 from bbsd.stopping import stop_request_of_context
 

@@ -12,8 +12,8 @@ from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.language.loading import loaded_again
-from bbsd.runs.price import Price
-from bbsd.runs.price import price as price_of
+from bbsd.runs.pricing.price import Price
+from bbsd.runs.pricing.price import price as price_of
 from bbsd.solver.paper.settings import settings_of
 
 if TYPE_CHECKING:

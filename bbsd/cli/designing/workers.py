@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
     from bbsd.engines.engine import Engine
 
-NEEDED = ("bbsd.runs.portions",)
-"""As in `bbsd.runs.workers`, which takes long to import."""
+NEEDED = ("bbsd.runs.workers.portions",)
+"""As in `bbsd.runs.workers.side_by_side`, which takes long to import."""
 
 
 class EngineName(StrEnum):

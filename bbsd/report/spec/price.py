@@ -10,7 +10,7 @@ from bbsd.report.wording.numbers import count, duration
 
 if TYPE_CHECKING:
     from bbsd.report.plain import Plain
-    from bbsd.runs.price import Price
+    from bbsd.runs.pricing.price import Price
 
 
 def price_plain(price: Price) -> dict[str, Plain]:

@@ -17,8 +17,8 @@ from bbsd.engines.carrying import carry_out
 from bbsd.engines.cluster import DaskEngine, NoBbsd, NoDask, NoScheduler, NoWorkers, dask_engine
 from bbsd.engines.engine import ATTEMPTS, WorkerLost
 from bbsd.engines.units import OtherVersion, Result, Unit
-from bbsd.runs.remote import RemoteRun
-from bbsd.runs.workers import RunsLost
+from bbsd.runs.workers.remote import RemoteRun
+from bbsd.runs.workers.side_by_side import RunsLost
 from bbsd.stopping import StopRequest
 from tests.unit.engines.engines import WORK, Adding
 
@@ -76,7 +76,7 @@ def test_any_number_of_workers_gives_the_same_bytes(engine, alone, tmp_path, mon
 def test_a_worker_that_is_killed_in_the_middle_twice_costs_nothing_but_time(
     engine, alone, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr("bbsd.runs.remote.FIRST", 0.0)  # a portion for each generation
+    monkeypatch.setattr("bbsd.runs.workers.remote.FIRST", 0.0)  # a portion for each generation
     killed = []
 
     def kill(line):

@@ -37,6 +37,6 @@ def test_that_a_cluster_has_no_workers_yet_is_told(monkeypatch, capsys, count, s
 
 
 def test_what_workers_import_is_what_they_need():
-    from bbsd.runs.workers import NEEDED
+    from bbsd.runs.workers.side_by_side import NEEDED
 
     assert workers.NEEDED == NEEDED

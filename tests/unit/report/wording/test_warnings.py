@@ -2,7 +2,7 @@ from dataclasses import replace
 
 from bbsd.evaluation import Interval
 from bbsd.report.wording.warnings import disagreement, warnings_of
-from bbsd.runs.visits import Unvisited
+from bbsd.runs.outcome.visits import Unvisited
 from bbsd.solver.judgement import Selection
 
 

@@ -8,10 +8,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from bbsd.engines.units import Unit
-from bbsd.runs.portions import BEGUN, STATE, WORK, Begun, order_of
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.records import INTERVAL, METRICS, Journal
 from bbsd.runs.storage.state import run_arrays
+from bbsd.runs.workers.portions import BEGUN, STATE, WORK, Begun, order_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,10 +7,10 @@ import pytest
 from bbsd.engines.engine import ATTEMPTS
 from bbsd.errors import UsageError
 from bbsd.evaluation import RewardNotFinite
-from bbsd.runs import workers
-from bbsd.runs.answers import complete_runs
 from bbsd.runs.signals import interrupts_request_stop
-from bbsd.runs.workers import NEEDED, RunsLost, side_by_side
+from bbsd.runs.workers import side_by_side as workers
+from bbsd.runs.workers.answers import complete_runs
+from bbsd.runs.workers.side_by_side import NEEDED, RunsLost, side_by_side
 from bbsd.stopping import current_stop_request
 from tests.unit.engines.engines import ThreadsEngine
 from tests.unit.runs.commands import sent_command
@@ -37,8 +37,8 @@ def noted():
 @pytest.fixture
 def short_portions(monkeypatch):
     """Give every step back."""
-    monkeypatch.setattr("bbsd.runs.remote.PORTION", 0.0)
-    monkeypatch.setattr("bbsd.runs.remote.PORTIONS", 1e9)
+    monkeypatch.setattr("bbsd.runs.workers.remote.PORTION", 0.0)
+    monkeypatch.setattr("bbsd.runs.workers.remote.PORTIONS", 1e9)
 
 
 def plain(architectures):

@@ -8,7 +8,7 @@ import numpy as np
 
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
-from bbsd.runs.interim import candidates
+from bbsd.runs.outcome.interim import candidates
 from bbsd.solver.arena import Arena
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word
 from bbsd.language.meaning import seed_key
 from bbsd.language.meaning.structure import OPEN_LAYER
-from bbsd.runs.sampling import sample, sample_search
+from bbsd.runs.pricing.sampling import sample, sample_search
 from bbsd.solver.budget import automatic_budget
 from bbsd.solver.judgement import random_sample
 from bbsd.solver.race import FIRST_ROUND

@@ -16,9 +16,9 @@ from bbsd.engines.engine import ATTEMPTS
 from bbsd.engines.local import processes_engine
 from bbsd.engines.units import Unit
 from bbsd.errors import UsageError
-from bbsd.runs.portions import PREPARE, order_of
 from bbsd.runs.rehearsal import rehearse
-from bbsd.runs.remote import RemoteRun
+from bbsd.runs.workers.portions import PREPARE, order_of
+from bbsd.runs.workers.remote import RemoteRun
 from bbsd.stopping import StopRequest, current_stop_request, raise_if_stopped
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from bbsd.engines.engine import Engine
     from bbsd.runs.command import Command, Listener
 
-NEEDED = ("bbsd.runs.portions",)
+NEEDED = ("bbsd.runs.workers.portions",)
 """What workers import before their first run."""
 REPORT_INTERVAL = 0.1
 """Seconds between two looks at what workers gave back."""

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from bbsd.runs.sampling import Sample, sample, sample_search
+from bbsd.runs.pricing.sampling import Sample, sample, sample_search
 from bbsd.solver.paper.settings import settings_of
 from tests.unit.compiler.twins import CORRIDOR_OUTSIDE, Corridor
 from tests.unit.problems import problem_of

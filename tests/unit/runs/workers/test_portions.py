@@ -4,12 +4,12 @@ import pytest
 
 from bbsd.engines.units import Unit
 from bbsd.language.loading import load
-from bbsd.runs import portions
-from bbsd.runs.portions import BEGUN, PREPARE, STATE, WORK, Begun, advance, order_of, prepare
 from bbsd.runs.rival_command import rival_command
 from bbsd.runs.storage import checkpoint
 from bbsd.runs.storage.records import METRICS, line_text
 from bbsd.runs.storage.state import run_arrays
+from bbsd.runs.workers import portions
+from bbsd.runs.workers.portions import BEGUN, PREPARE, STATE, WORK, Begun, advance, order_of, prepare
 from bbsd.stopping import stop_request_of_context
 from bbsd.text import Source
 from tests.unit.runs.commands import SENT, command_of, sent_command

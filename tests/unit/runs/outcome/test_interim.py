@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.runs.interim import best_so_far
+from bbsd.runs.outcome.interim import best_so_far
 from tests.unit.runs.commands import command_of, search_of
 
 

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.runs.answers import complete_runs
+from bbsd.runs.workers.answers import complete_runs
 from tests.unit.runs.commands import command_of
 
 

@@ -21,7 +21,7 @@ def complete_runs(
     unfinished = [run for run, answer in answers.items() if answer is None]
     is_elsewhere = engine is not None and not engine.shares_machine
     if unfinished and (is_elsewhere or min(len(unfinished), jobs) > 1):
-        from bbsd.runs.workers import side_by_side
+        from bbsd.runs.workers.side_by_side import side_by_side
 
         answers |= side_by_side(command, unfinished, jobs, listener, engine)
     else:

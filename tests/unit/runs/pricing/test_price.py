@@ -10,12 +10,12 @@ import pytest
 
 from bbsd import api
 from bbsd.report.spec.price import price_plain, price_text
-from bbsd.runs.price import price as price_of
+from bbsd.runs.pricing.price import price as price_of
 from bbsd.solver.paper.settings import settings_of
 from tests.unit.compiler.twins import CORRIDOR_OUTSIDE, Corridor
 from tests.unit.problems import problem_of
 
-SPEC = Path(__file__).parents[2] / "end_to_end" / "specs" / "thermostat.yaml"
+SPEC = Path(__file__).parents[3] / "end_to_end" / "specs" / "thermostat.yaml"
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +101,7 @@ def test_what_compiling_takes_is_told_until_it_is_in_the_cache(tmp_path, monkeyp
 
 def test_a_spec_without_holes_has_no_price():
     with pytest.raises(api.NothingToDesign):
-        api.price(Path(__file__).parents[3] / "specs" / "object_lifting_hand.yaml")
+        api.price(Path(__file__).parents[4] / "specs" / "object_lifting_hand.yaml")
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from bbsd.architecture.policy import joint_space
 from bbsd.compiler import compile_meaning
 from bbsd.language.loading import load
 from bbsd.runs.command import Command
-from bbsd.runs.joint_policy import joint_policy_returns
+from bbsd.runs.outcome.joint_policy import joint_policy_returns
 from bbsd.runs.rivals import rival
 from bbsd.runs.storage.folder import Folder
 from bbsd.runs.storage.identity import identity

@@ -1,8 +1,8 @@
 from dataclasses import replace
 
 from bbsd.runs.command import Command
+from bbsd.runs.outcome.visits import unvisited
 from bbsd.runs.storage.folder import Folder
-from bbsd.runs.visits import unvisited
 from bbsd.solver.paper.settings import settings_of
 from tests.unit.problems import problem_of
 from tests.unit.runs.commands import WHO, command_of
