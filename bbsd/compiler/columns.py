@@ -12,7 +12,7 @@ import numpy.typing as npt
 from bbsd.expression.graph import Graph, Node, value_of
 
 if TYPE_CHECKING:
-    from bbsd.language.meaning.constants import Constants
+    from bbsd.language.meaning.naming.constants import Constants
 
 Numbers = npt.NDArray[np.float64 | np.int64 | np.bool_]
 Reader = Callable[[Node], Node]

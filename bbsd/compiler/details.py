@@ -11,7 +11,7 @@ from bbsd.expression.node_data import Slot
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 
 class Detail(Enum):

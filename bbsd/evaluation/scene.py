@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.picture import Picture
+    from bbsd.language.meaning.episode.picture import Picture
 
     Stored = Mapping[Slot, float]
 

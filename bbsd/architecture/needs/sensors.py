@@ -9,7 +9,7 @@ from bbsd.architecture.needs.naming import before
 from bbsd.expression.graph import Graph, Level
 from bbsd.expression.scope import Named
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.episode import (
+from bbsd.language.meaning.episode.episode import (
     definitions_at,
     scalars_defined,
     slots_read,
@@ -17,8 +17,8 @@ from bbsd.language.meaning.episode import (
     stored_sensors,
 )
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import Names, refilled, scalars_by_slot
-from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among, within_definitions
+from bbsd.language.meaning.naming.names import Names, refilled, scalars_by_slot
+from bbsd.language.meaning.naming.order import dependency_order, names_used_in, uses_among, within_definitions
 from bbsd.language.meaning.partitions import is_partition
 from bbsd.language.meaning.situation import names_of
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bbsd.expression.graph import Node
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 
 def credit_outputs(episode: Episode) -> list[Node]:

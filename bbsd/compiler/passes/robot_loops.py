@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bbsd.expression.node_data import Variable
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 MOST_ROBOTS_WRITTEN_OUT = 3
 """Up to so many robots are written one after the other, which runs faster (decision 18, loops over robots)."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 Replaced = dict[int, Node]
 """New nodes by the numbers of the old nodes that they replace."""

@@ -26,7 +26,7 @@ from bbsd.expression.node_data import Slot
 from bbsd.expression.operations import MIRRORED
 
 if TYPE_CHECKING:
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 ORDERINGS = frozenset({"<", "<=", ">", ">="})
 VARYING = (Level.LANE, Level.EACH)

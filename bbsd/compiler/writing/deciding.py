@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from bbsd.expression.graph import Node
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 FINITE = frozenset({"literal", "constant", "step", "sign", "sin", "cos", "atan", "atan2", "tanh", "cell_of"})
 """Operations whose values are finite where those of slots are, whatever their operands."""

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from bbsd.compiler.tables import TableShape
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 OWN = (Level.ROBOT, Level.EACH)
 """The levels of values that each robot has of its own."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bbsd.compiler import Problem
-    from bbsd.language.meaning.constants import Constants
+    from bbsd.language.meaning.naming.constants import Constants
 
 MAX_STARTS = 1_000_000
 """Starts that are run at most."""

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from bbsd.environments.tables import TransitionTable
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 STEP = Slot(f"{HIDDEN}steps_before")
 """Where a state keeps the steps that were taken before it, if anything depends on them."""

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Path, Scope
     from bbsd.language.meaning.forms import Form
     from bbsd.language.meaning.moments import Moment
-    from bbsd.language.meaning.names import Names
+    from bbsd.language.meaning.naming.names import Names
     from bbsd.language.meaning.tables.table import Inputs, Table
     from bbsd.language.models import Behavior, Environment, PartitionText
 

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 from bbsd.expression.graph import Graph, GraphTooLargeError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
 from bbsd.expression.syntax.mistakes import Mistake, TooManyMistakesError
-from bbsd.language.meaning.choices import report_names_of_values
-from bbsd.language.meaning.constants import read_constants
 from bbsd.language.meaning.contradictions import report_contradictions, with_generations
-from bbsd.language.meaning.definitions import (
+from bbsd.language.meaning.episode.episode import elaborate_episode
+from bbsd.language.meaning.meaning import Meaning, seed_key
+from bbsd.language.meaning.naming.choices import report_names_of_values
+from bbsd.language.meaning.naming.constants import read_constants
+from bbsd.language.meaning.naming.definitions import (
     read_definitions,
     report_duplicates,
     report_unordered,
     shared_namespace,
 )
-from bbsd.language.meaning.episode import elaborate_episode
-from bbsd.language.meaning.meaning import Meaning, seed_key
-from bbsd.language.meaning.names import Names
+from bbsd.language.meaning.naming.names import Names
 from bbsd.language.meaning.outside.checking import report_outside
 from bbsd.language.meaning.proofs.whole_numbers import report_fractions
 from bbsd.language.meaning.rates import evaluate_rates

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Graph, Node
     from bbsd.expression.scope import Path
     from bbsd.expression.syntax.tree import Span
-    from bbsd.language.meaning.constants import Constants
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
+    from bbsd.language.meaning.naming.constants import Constants
     from bbsd.language.meaning.rates import Rates
     from bbsd.language.meaning.structure import Structure
     from bbsd.language.models import Spec

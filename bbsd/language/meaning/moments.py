@@ -14,7 +14,7 @@ from bbsd.language.meaning.partitions import Partition, conditions_of_cells, ela
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.language.field_types import Expression
-    from bbsd.language.meaning.names import Names, Stored
+    from bbsd.language.meaning.naming.names import Names, Stored
     from bbsd.language.models import PartitionText
 
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.scope import Findings
 from bbsd.expression.vocabulary import DRAWS
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.definitions import read_definitions
-from bbsd.language.meaning.episode import (
+from bbsd.language.meaning.episode.episode import (
     decision_at,
     definitions_at,
     forms_of,
@@ -19,8 +18,9 @@ from bbsd.language.meaning.episode import (
     stored_sensors,
 )
 from bbsd.language.meaning.moments import Moment
-from bbsd.language.meaning.names import Names
-from bbsd.language.meaning.order import functions_called_in, within_definitions
+from bbsd.language.meaning.naming.definitions import read_definitions
+from bbsd.language.meaning.naming.names import Names
+from bbsd.language.meaning.naming.order import functions_called_in, within_definitions
 from bbsd.language.meaning.partitions import is_partition
 
 if TYPE_CHECKING:

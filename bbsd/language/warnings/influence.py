@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
     from bbsd.language.validation import LocatedMistake
 
 MOST_LOOKS = 500_000

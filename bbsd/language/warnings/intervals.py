@@ -15,7 +15,7 @@ from bbsd.expression.operations import COMPARISONS
 from bbsd.expression.syntax.tree import functions_called, names_used
 from bbsd.expression.vocabulary import DRAWS
 from bbsd.language.field_types import expressions_in
-from bbsd.language.meaning.constants import GENERATION
+from bbsd.language.meaning.naming.constants import GENERATION
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence

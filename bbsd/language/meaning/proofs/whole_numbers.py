@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from bbsd.expression.graph import needed, whole_nodes
 from bbsd.expression.kinds import Kind
-from bbsd.language.meaning.constants import GENERATION_SLOT
+from bbsd.language.meaning.naming.constants import GENERATION_SLOT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Gather, Slot
     from bbsd.expression.scope import Findings
-    from bbsd.language.meaning.constants import Constants
+    from bbsd.language.meaning.naming.constants import Constants
 
 MAX_SPREAD = 100
 """Steps in which a fraction can spread from one slot to the next; if it spreads on, no slot counts as whole."""

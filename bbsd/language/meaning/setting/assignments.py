@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Path, Scope, Value
     from bbsd.language.field_types import Expression
     from bbsd.language.meaning.forms import Form
-    from bbsd.language.meaning.names import Names
+    from bbsd.language.meaning.naming.names import Names
 
 Assignments = dict["Variable", tuple[Node, ...]]
 """What each scalar of state that an action may change is after it, robot by robot."""

@@ -24,7 +24,7 @@ from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Findings, Named, Path, Plain, Scope, Shared, Unusable, Value
 from bbsd.kernel import streams
 from bbsd.language.field_types import expressions_in
-from bbsd.language.meaning.order import dependency_order, names_used_in, uses_among
+from bbsd.language.meaning.naming.order import dependency_order, names_used_in, uses_among
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

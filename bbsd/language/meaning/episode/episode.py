@@ -20,9 +20,11 @@ from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable, Value
 from bbsd.expression.syntax.mistakes import KEY, WHOLE
 from bbsd.language.meaning.behaviors import Module, elaborate_behavior
+from bbsd.language.meaning.episode.perceiving import Perceived, SensorFault, decision_perceived
+from bbsd.language.meaning.episode.picture import Picture, elaborate_picture
 from bbsd.language.meaning.forms import Form, fitted, form_of, regular
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import Names, Stored, names_in, read_slots, refilled, scalars_by_slot
+from bbsd.language.meaning.naming.names import Names, Stored, names_in, read_slots, refilled, scalars_by_slot
 from bbsd.language.meaning.outside.checking import report_sent
 from bbsd.language.meaning.outside.exchange import (
     ONLY_OUTSIDE,
@@ -35,8 +37,6 @@ from bbsd.language.meaning.outside.exchange import (
     what_sets,
 )
 from bbsd.language.meaning.partitions import MAX_CELLS_IN_ALL, Partition, is_partition
-from bbsd.language.meaning.perceiving import Perceived, SensorFault, decision_perceived
-from bbsd.language.meaning.picture import Picture, elaborate_picture
 from bbsd.language.outside import EARNED
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@ from itertools import pairwise
 import pytest
 
 from bbsd.language.field_types import expression
-from bbsd.language.meaning.order import (
+from bbsd.language.meaning.naming.order import (
     chain_weights,
     dependency_order,
     find_circles,

@@ -8,7 +8,7 @@ from bbsd.expression.scope import Definition, Findings, Path, Unusable
 from bbsd.expression.syntax.mistakes import KEY, Mistake
 from bbsd.expression.syntax.tree import functions_called, names_used, stack_depth
 from bbsd.language.field_types import Expression, expressions_in, signature
-from bbsd.language.meaning.order import chain_weights, find_circles, uses_among
+from bbsd.language.meaning.naming.order import chain_weights, find_circles, uses_among
 from bbsd.language.models import OTHERWISE, Spec
 from bbsd.language.outside import EARNED, OUTSIDE_KINDS
 

@@ -7,11 +7,11 @@ from bbsd.compiler.details import Detail
 from bbsd.compiler.kernels import kernel_source
 from bbsd.expression.graph import Node, needed
 from bbsd.language.loading import load
-from bbsd.language.meaning.picture import Picture
+from bbsd.language.meaning.episode.picture import Picture
 from bbsd.text import Source
 from tests.unit.language.specs import codes, meaning_of, messages
 
-SPECS = Path(__file__).parents[4] / "specs"
+SPECS = Path(__file__).parents[5] / "specs"
 WORLDS = ("mobile_robot", "pursuit", "forager", "grid_world")
 FULL = """
 constants: {rocks: [[1, 2, 0.5], [3, 4, 1]], maze: [[1, 0, 1]], rocky: [[1, 2], [3, 4], [5, 6]]}

@@ -3,7 +3,7 @@
 import pytest
 
 from bbsd.language.loading import check
-from bbsd.language.meaning.choices import choices_of
+from bbsd.language.meaning.naming.choices import choices_of
 from bbsd.language.meaning.tables.labels import Numbers
 from tests.unit.language.specs import codes, meaning_of, source
 

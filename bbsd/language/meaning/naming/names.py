@@ -21,7 +21,7 @@ from bbsd.expression.scope import (
     Value,
 )
 from bbsd.expression.syntax.tree import OneOf
-from bbsd.language.meaning.choices import choices_of
+from bbsd.language.meaning.naming.choices import choices_of
 from bbsd.language.meaning.outside.exchange import size_of_field
 from bbsd.language.outside import EARNED
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bbsd.expression.scope import Names as ValueNames
-    from bbsd.language.meaning.constants import Constants
+    from bbsd.language.meaning.naming.constants import Constants
     from bbsd.language.models import Spec
 
 Stored = Mapping[str, tuple[Value, ...]]

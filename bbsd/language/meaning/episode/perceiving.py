@@ -11,13 +11,13 @@ from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Named
 from bbsd.kernel.streams import name_word
 from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.names import read_slots, scalars_by_slot
+from bbsd.language.meaning.naming.names import read_slots, scalars_by_slot
 from bbsd.language.meaning.partitions import Partition, is_partition
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.scope import Scope, Value
-    from bbsd.language.meaning.names import Names, Stored
+    from bbsd.language.meaning.naming.names import Names, Stored
 
 
 @dataclass(frozen=True, slots=True)
