@@ -4,7 +4,7 @@ from bbsd.errors.catalog import KINDS, describe
 from bbsd.errors.correction import Correction, Edit, Lines
 from bbsd.errors.diagnosis import Diagnosis, Place, SpecError
 from bbsd.errors.inert import inert, inert_cell, inert_json
-from bbsd.errors.kind import DiagnosisKind, Severity
+from bbsd.errors.kinds.kind import DiagnosisKind, Severity
 from bbsd.errors.rendering import character_name, escape, render_json, render_text
 from bbsd.errors.suggestion import did_you_mean, nearest
 from bbsd.errors.usage import UsageError

@@ -8,21 +8,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.errors.design_kinds import DESIGN_KINDS
-from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
-from bbsd.errors.expression_kinds import EXPRESSION_KINDS
-from bbsd.errors.kind import Severity
-from bbsd.errors.list_kinds import LIST_KINDS
-from bbsd.errors.outside_kinds import OUTSIDE_KINDS
-from bbsd.errors.spec_kinds import SPEC_KINDS
-from bbsd.errors.text_kinds import TEXT_KINDS
-from bbsd.errors.warning_kinds import WARNING_KINDS
-from bbsd.errors.word_kinds import WORD_KINDS
+from bbsd.errors.kinds.behaviors import BEHAVIOR_KINDS
+from bbsd.errors.kinds.design import DESIGN_KINDS
+from bbsd.errors.kinds.environment import ENVIRONMENT_KINDS
+from bbsd.errors.kinds.expression import EXPRESSION_KINDS
+from bbsd.errors.kinds.kind import Severity
+from bbsd.errors.kinds.lists import LIST_KINDS
+from bbsd.errors.kinds.outside import OUTSIDE_KINDS
+from bbsd.errors.kinds.spec import SPEC_KINDS
+from bbsd.errors.kinds.text import TEXT_KINDS
+from bbsd.errors.kinds.warnings import WARNING_KINDS
+from bbsd.errors.kinds.words import WORD_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from bbsd.errors.kind import DiagnosisKind
+    from bbsd.errors.kinds.kind import DiagnosisKind
 
 PREFIX = "BB"
 
@@ -36,6 +37,7 @@ KINDS: Mapping[str, DiagnosisKind] = in_order_of_codes(
     (
         *TEXT_KINDS,
         *SPEC_KINDS,
+        *BEHAVIOR_KINDS,
         *DESIGN_KINDS,
         *EXPRESSION_KINDS,
         *OUTSIDE_KINDS,

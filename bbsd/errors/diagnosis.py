@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors.catalog import severity_of
 from bbsd.errors.correction import CorrectedLine, corrected_lines
-from bbsd.errors.kind import Severity
+from bbsd.errors.kinds.kind import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

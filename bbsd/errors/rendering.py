@@ -6,7 +6,7 @@ import unicodedata
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from bbsd.errors.kind import Severity
+from bbsd.errors.kinds.kind import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

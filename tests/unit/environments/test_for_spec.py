@@ -5,7 +5,7 @@ import pytest
 from bbsd.environments.for_spec import closed_folders, opened_for, settings
 from bbsd.environments.importing.consent import consent
 from bbsd.errors import KINDS, SpecError
-from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
+from bbsd.errors.kinds.environment import ENVIRONMENT_KINDS
 from bbsd.language.lineage import overlay
 from bbsd.language.loading import load
 from bbsd.text import Source, read, write

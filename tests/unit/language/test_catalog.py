@@ -7,8 +7,8 @@ import pytest
 
 import bbsd
 from bbsd.errors import KINDS, Diagnosis, SpecError
-from bbsd.errors.environment_kinds import ENVIRONMENT_KINDS
-from bbsd.errors.warning_kinds import WARNING_KINDS
+from bbsd.errors.kinds.environment import ENVIRONMENT_KINDS
+from bbsd.errors.kinds.warnings import WARNING_KINDS
 from bbsd.expression import graph
 from bbsd.language.loading import check, load
 from bbsd.text import Source, read

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bbsd.errors.kind import DiagnosisKind
+from bbsd.errors.kinds.kind import DiagnosisKind
 
 _WORLD = "environment:\n  pettingzoo: mpe2.simple_spread_v3\n"
 _SHOWN = "  observation: [x, y]\n"

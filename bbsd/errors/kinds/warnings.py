@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bbsd.errors.kind import DiagnosisKind, Severity
+from bbsd.errors.kinds.kind import DiagnosisKind, Severity
 
 
 def _warning(code: str, title: str, explanation: str, example: str, mend: str) -> DiagnosisKind:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bbsd.errors.kind import DiagnosisKind
+from bbsd.errors.kinds.kind import DiagnosisKind
 
 DESIGN_KINDS = (
     DiagnosisKind(

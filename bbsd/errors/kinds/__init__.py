@@ -1,0 +1,1 @@
+"""The kinds of mistakes and warnings, a module for each place in which they are found."""
