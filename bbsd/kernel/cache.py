@@ -9,6 +9,7 @@ import atexit
 import os
 import shutil
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
@@ -20,6 +21,8 @@ CACHE_VARIABLE = "BBSD_CACHE_DIR"
 MOST_BYTES = 500_000_000
 """What the cache holds at most, some hundred specs; what was not used for the longest time is removed first."""
 DIGEST_SIZE = sha256().digest_size
+FOLDERS = ("compiled", "kernels")
+"""What the cache holds: compiled code, and the texts of kernels; in each a folder for each `kernel_digest`."""
 
 
 def with_digest(content: bytes) -> bytes:
@@ -57,6 +60,18 @@ def cache_folder(name: str) -> Path:
     return root / name
 
 
+def version_folder(name: str) -> Path:
+    """Return the folder of what this version keeps in a folder of the cache, made where it is missing."""
+    folder = cache_folder(name) / kernel_digest()
+    folder.mkdir(mode=0o700, exist_ok=True)
+    return folder
+
+
+def is_of_this_version(path: Path, root: Path) -> bool:
+    """Say whether a file of the cache is one that this version of bbsd and numba can use."""
+    return path.relative_to(root).parts[1:2] == (kernel_digest(),)
+
+
 def cache_root() -> Path:
     """Return the root of the user's cache: $BBSD_CACHE_DIR, or bbsd in $XDG_CACHE_HOME or ~/.cache."""
     if given := os.environ.get(CACHE_VARIABLE):
@@ -83,13 +98,15 @@ def trim(root: Path, most: int = MOST_BYTES) -> None:
 
     Compiled code is looked at by the kernel that it is of, and goes with the text of that kernel.
     """
-    compiled = [_Compiled.read(folder) for folder in (root / "compiled").glob("*") if folder.is_dir()]
-    kernels = {path: path.stat().st_size for path in (root / "kernels").glob("*.py")}
+    compiled = [_Compiled.read(folder) for folder in (root / "compiled").glob("*/*") if folder.is_dir()]
+    kernels = {path: path.stat().st_size for path in (root / "kernels").rglob("*.py")}
     size = sum(each.size for each in compiled) + sum(kernels.values())
     for each in sorted(compiled, key=lambda each: each.used):
         if size <= most:
             return
         shutil.rmtree(each.folder, ignore_errors=True)
+        with suppress(OSError):  # where other folders are in it
+            each.folder.parent.rmdir()
         size -= each.size
         for path in [path for path in kernels if path.stem in each.kernels]:
             path.unlink(missing_ok=True)
@@ -118,7 +135,7 @@ class _Compiled:
 
 def clean(root: Path) -> int:
     """Remove all that is in the cache, and return how many bytes that were."""
-    folders = [root / "compiled", root / "kernels"]
+    folders = [root / name for name in FOLDERS]
     size = sum(path.stat().st_size for folder in folders for path in folder.rglob("*") if path.is_file())
     for folder in folders:
         shutil.rmtree(folder, ignore_errors=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from bbsd.kernel import functions, streams
-from bbsd.kernel.cache import cache_folder, kernel_digest
+from bbsd.kernel.cache import kernel_digest, version_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -81,7 +81,7 @@ def _library() -> list[Dispatcher]:
     """
     intrinsics.register()
     library = []
-    with _cached_in(cache_folder("compiled") / kernel_digest()):
+    with _cached_in(version_folder("compiled") / "library"):
         for function in functions.COMPILABLE + streams.COMPILABLE:
             library.append(numba.njit(**LIBRARY_OPTIONS)(function))
             keep_compiled(library[-1], function)
@@ -109,7 +109,7 @@ def jit(function: Function, **more: object) -> Function:
     numba's cache depends on the text of the function's own file; the folder's name on everything else that matters.
     """
     options: Any = {**OPTIONS, **more}
-    with _cached_in(cache_folder("compiled") / _stamp(function)):
+    with _cached_in(version_folder("compiled") / _stamp(function)):
         compiled = numba.njit(**options)(function)
         keep_compiled(compiled, function)
     return cast("Function", compiled)

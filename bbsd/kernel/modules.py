@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from types import ModuleType
 
-from bbsd.kernel.cache import cache_folder, cache_root, kernel_digest
+from bbsd.kernel.cache import cache_root, kernel_digest, version_folder
 
 
 def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bool) -> ModuleType:
@@ -26,7 +26,7 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
     module_name = stem if compiled else f"{stem}_plain"
     if module_name in sys.modules:
         return sys.modules[module_name]
-    path = cache_folder("kernels") / f"{stem}.py"
+    path = version_folder("kernels") / f"{stem}.py"
     _write(path, source)
     module = _executed(source, path, module_name)
     if compiled:
@@ -37,7 +37,7 @@ def load_kernel(source: str, name: str, functions: tuple[str, ...], compiled: bo
 def not_compiled(source: str, name: str, functions: tuple[str, ...]) -> list[str]:
     """Return those functions of a source that are neither in memory nor in the cache: they will be compiled."""
     stem = _stem(source, name, functions)
-    loaded, folder = sys.modules.get(stem), cache_root() / "compiled"
+    loaded, folder = sys.modules.get(stem), cache_root() / "compiled" / kernel_digest()
     return [
         each
         for each in functions

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
-from bbsd.kernel.cache import CACHE_VARIABLE, cache_root, is_whole, usable
+from bbsd.kernel.cache import CACHE_VARIABLE, FOLDERS, cache_root, is_of_this_version, is_whole, usable
 from bbsd.version import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
 PACKAGES = ("numba", "llvmlite", "numpy", "pydantic", "PyYAML", "yamlcore", "typer", "rich")
@@ -102,11 +102,23 @@ def _cache(root: Path) -> Finding:
     if not (usable(root) and usable(root / "kernels") and usable(root / "compiled")):
         advice = f"set {CACHE_VARIABLE} to a folder that only you can write; without it each command compiles again"
         return Finding("cache", str(root), f"it cannot be used: {advice}")
-    files = [path for path in root.rglob("*") if path.is_file()]
+    files = [path for name in FOLDERS for path in (root / name).rglob("*") if path.is_file()]
+    others = [path for path in files if not is_of_this_version(path, root)]
+    damaged = [path for path in files if path not in {*others} and _is_damaged(path)]
+    value = f"{root}, writable, {_size_text(files)}"
+    if damaged:
+        value += f"; {_size_text(damaged)} damaged: made anew when needed"
+    if others:
+        value += (
+            f"; {_size_text(others)} of other versions of bbsd or numba, which this one does not use: "
+            "bbsd doctor --clean empties the cache"
+        )
+    return Finding("cache", value)
+
+
+def _size_text(files: Sequence[Path]) -> str:
     size = sum(path.stat().st_size for path in files) / 1e6
-    n_damaged = sum(_is_damaged(path) for path in files)
-    damaged = f", of which {n_damaged:,} damaged: made anew when needed" if n_damaged else ""
-    return Finding("cache", f"{root}, writable, {len(files):,} files, {size:.1f} MB{damaged}")
+    return f"{len(files):,} {'file' if len(files) == 1 else 'files'}, {size:.1f} MB"
 
 
 def _is_damaged(path: Path) -> bool:

@@ -47,11 +47,14 @@ def test_a_cache_that_others_can_write_is_not_used(root: Path, capsys: pytest.Ca
 
 def compiled(root: Path, name: str, size: int, used: float) -> Path:
     """A folder of compiled code, and the text of its kernel."""
-    for path in (root / "compiled" / name / f"{name}.rollout.1.nbc", root / "kernels" / f"{name}.py"):
+    for path in (
+        root / "compiled" / "1" / name / f"{name}.rollout.1.nbc",
+        root / "kernels" / "1" / f"{name}.py",
+    ):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(bytes(size))
         os.utime(path, (used, used))
-    return root / "compiled" / name
+    return root / "compiled" / "1" / name
 
 
 def test_a_cache_is_bounded_and_what_was_not_used_longest_goes_first(root: Path) -> None:
@@ -60,7 +63,7 @@ def test_a_cache_is_bounded_and_what_was_not_used_longest_goes_first(root: Path)
     assert all(path.exists() for path in (older, old, young))
     trim(root, most=599)
     assert [path.exists() for path in (older, old, young)] == [False, True, True]
-    assert [path.stem for path in sorted((root / "kernels").iterdir())] == ["a", "b"]
+    assert [path.stem for path in sorted((root / "kernels").rglob("*.py"))] == ["a", "b"]
     trim(root, most=0)
     assert not list(root.rglob("*.*"))
     trim(root / "nowhere", most=0)

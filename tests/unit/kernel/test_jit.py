@@ -85,7 +85,7 @@ def test_division_by_zero_is_an_infinity() -> None:
 
 def test_compiled_code_lies_in_the_cache(cache: Path) -> None:
     load_kernel(SOURCE, "doubles", ("double",), compiled=True).double(1.0)
-    assert list((cache / "compiled").glob("*/*/doubles_*.nbi"))
+    assert list((cache / "compiled").glob("*/*/*/doubles_*.nbi"))
     assert not list((cache / "kernels").glob("**/*.nbi"))
 
 

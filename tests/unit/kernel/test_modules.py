@@ -47,7 +47,7 @@ def test_the_same_source_is_the_same_module_and_file(cache: Path) -> None:
     again = load_kernel(source, "halves", ("half",), compiled=False)
     assert (again.__name__, again.__file__) == (first.__name__, first.__file__)
     assert Path(str(again.__file__)).stat().st_mtime_ns == written.st_mtime_ns
-    assert [path.name for path in (cache / "kernels").glob("*.py")] == [
+    assert [path.name for path in (cache / "kernels").rglob("*.py")] == [
         f"{again.__name__.removesuffix('_plain')}.py"
     ]
     assert load_kernel(source, "halves", ("half",), compiled=False) is again
@@ -56,7 +56,7 @@ def test_the_same_source_is_the_same_module_and_file(cache: Path) -> None:
 def test_another_source_is_another_file(cache: Path) -> None:
     for number in range(3):
         load_kernel(source_with(f"OTHER = {number}"), "halves", ("half",), compiled=False)
-    assert len(list((cache / "kernels").glob("halves_*.py"))) == 3
+    assert len(list((cache / "kernels").rglob("halves_*.py"))) == 3
 
 
 def test_a_damaged_file_is_written_again() -> None:
