@@ -60,38 +60,37 @@ class AgentInput:
         """The indices of its values in the lists, in order."""
         return [*product(*map(range, self.shape))]
 
-    def read(self, value: object) -> float | bool | int:
+    @property
+    def called(self) -> list[str]:
+        """What its values are called, in order: `sonar[3]` where it is a list."""
+        return [self.name + "".join(f"[{index}]" for index in place) for place in self.places]
+
+    def read(self, value: object, called: str) -> float | bool | int:
         """Return one of its values as it is stored. Raises BadInput where it is of another kind."""
         match self.kind:
             case "truth":
-                return self._truth(value)
+                return _truth(value, called)
             case "cell":
-                return self._cell(value)
+                return self._cell(value, called)
             case "name":
-                return float(self._cell(value))
-        return self._number(value)
+                return float(self._cell(value, called))
+        return self._number(value, called)
 
-    def _number(self, value: object) -> float:
+    def _number(self, value: object, called: str) -> float:
         is_list = getattr(value, "shape", ()) != ()
         if is_list or isinstance(value, bool | str | bytes) or not isinstance(value, SupportsFloat):
-            raise BadInput(f"{self.name}: {value!r} is no number")
+            raise BadInput(f"{called}: {value!r} is no number")
         try:
             number = float(value)
         except (TypeError, ValueError) as error:
-            raise BadInput(f"{self.name}: {value!r} is no number") from error
+            raise BadInput(f"{called}: {value!r} is no number") from error
         except OverflowError as error:
-            raise BadInput(f"{self.name}: a number is given that is beyond binary64") from error
+            raise BadInput(f"{called}: a number is given that is beyond binary64") from error
         if self.kind == "whole number" and isfinite(number) and not number.is_integer():
-            raise BadInput(f"{self.name}: {value!r} is no whole number")
+            raise BadInput(f"{called}: {value!r} is no whole number")
         return number
 
-    def _truth(self, value: object) -> bool:
-        plain = plain_value(value)
-        if isinstance(plain, bool | int | float) and plain in (0, 1):
-            return bool(plain)
-        raise BadInput(f"{self.name}: {value!r} is neither true nor false")
-
-    def _cell(self, value: object) -> int:
+    def _cell(self, value: object, called: str) -> int:
         plain = plain_value(value)
         label = str(plain).lower() if isinstance(plain, bool) else str(plain)
         if label in self.cells:
@@ -103,11 +102,18 @@ class AgentInput:
         few = ", ".join(self.cells[:FEW]) + (", ..." if len(self.cells) > FEW else "")
         what = "values" if self.kind == "name" else "cells"
         raise BadInput(
-            f"{self.name}: {plain!r} is none of its {what}{did_you_mean(label, self.cells[:100])}: {few}"
+            f"{called}: {plain!r} is none of its {what}{did_you_mean(label, self.cells[:100])}: {few}"
         )
 
     def _has_named(self, index: int) -> bool:
         return not isinstance(self.cells, Numbers) and 0 <= index < len(self.cells)
+
+
+def _truth(value: object, called: str) -> bool:
+    plain = plain_value(value)
+    if isinstance(plain, bool | int | float) and plain in (0, 1):
+        return bool(plain)
+    raise BadInput(f"{called}: {value!r} is neither true nor false")
 
 
 def plain_value(value: object) -> object:
@@ -168,6 +174,19 @@ def complaint(
     inputs: Mapping[str, AgentInput], known: Collection[str], given: Mapping[str, Any]
 ) -> BadInput | None:
     """Return what is wrong with the names and the shapes of what an agent is given; None if nothing is."""
+    if problem := complaint_of_names(inputs, known, given):
+        return problem
+    for each in inputs.values():
+        if each.shape and not _has_shape(given[each.name], each.shape):
+            lengths = " by ".join(map(str, each.shape))
+            return BadInput(f"{each.name}: {lengths} values are needed, not {given[each.name]!r}")
+    return None
+
+
+def complaint_of_names(
+    inputs: Mapping[str, AgentInput], known: Collection[str], given: Mapping[str, Any]
+) -> BadInput | None:
+    """Return what is wrong with the names of what an agent is given; None if nothing is."""
     if not hasattr(given, "keys"):
         return BadInput(f"a mapping of names to values is needed, not {given!r}")
     for name in given:
@@ -175,10 +194,6 @@ def complaint(
             return _named(f"there is no {name!r}{did_you_mean(str(name), inputs)}", inputs)
     if missing := [name for name in inputs if name not in given]:
         return _named(f"missing: {', '.join(missing)}", inputs)
-    for each in inputs.values():
-        if each.shape and not _has_shape(given[each.name], each.shape):
-            lengths = " by ".join(map(str, each.shape))
-            return BadInput(f"{each.name}: {lengths} values are needed, not {given[each.name]!r}")
     return None
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bbsd.agent.inputs import BadInput, complaint
+from bbsd.agent.inputs import BadInput, complaint_of_names
 from bbsd.agent.writing import KEY, STEP, decision_lines, outcome_names
 from bbsd.expression.kinds import Kind
 from bbsd.expression.nesting import by_name
@@ -204,18 +204,15 @@ def rows_of(
     Raises:
         BadInput: names are wrong, shapes do not fit, or values are of another kind.
     """
-    if problem := complaint({name: each for name, each in inputs.items() if not each.shape}, known, given):
+    if problem := complaint_of_names(inputs, known, given):
         raise problem
-    if missing := [name for name in inputs if name not in given]:
-        raise BadInput(f"missing: {', '.join(missing)}")
     arrays = {name: _array(each, given[name]) for name, each in inputs.items()}
-    counts = {len(array) for name, array in arrays.items() if array.ndim == 1 + len(inputs[name].shape)}
-    counts |= {n} if n is not None else set()
-    if len(counts) > 1:
-        raise BadInput(
-            f"the values are for different numbers of robots: {', '.join(map(str, sorted(counts)))}"
-        )
-    count = counts.pop() if counts else 1
+    counts = {name: len(array) for name, array in arrays.items() if array.ndim == 1 + len(inputs[name].shape)}
+    counts |= {"n": n} if n is not None else {}
+    if len({*counts.values()}) > 1:
+        told = ", ".join(f"{number} by {name}" for name, number in counts.items())
+        raise BadInput(f"the values are for different numbers of robots: {told}")
+    count = next(iter(counts.values()), 1)
     rows = [
         np.broadcast_to(arrays[name], (count, *each.shape)).reshape(count, each.size).T
         for name, each in inputs.items()
@@ -225,21 +222,50 @@ def rows_of(
 
 def _array(each: AgentInput, value: Any) -> Floats:  # noqa: ANN401 - whatever was given
     """Return the values of an input as numbers: truths 0 and 1, cells by their index."""
-    array = np.asarray(value)
+    array = _as_given(each, value)
     if array.shape[array.ndim - len(each.shape) :] != each.shape or array.ndim > 1 + len(each.shape):
-        shape = " by ".join(["n", *map(str, each.shape)])
-        raise BadInput(f"{each.name}: an array of {shape} values is needed, not one of shape {array.shape}")
+        raise BadInput(f"{each.name}: {_needed(each)} is needed, not one of shape {array.shape}")
     if each.kind in ("number", "whole number") and array.dtype.kind in "fiu":
         numbers = array.astype(np.float64)
-        if each.kind == "whole number" and (wrong := numbers[np.isfinite(numbers) & (numbers % 1 != 0)]).size:
-            raise BadInput(f"{each.name}: {float(wrong[0])!r} is no whole number")
+        if each.kind == "whole number" and (wrong := np.isfinite(numbers) & (numbers % 1 != 0)).any():
+            place = int(wrong.argmax())
+            raise BadInput(
+                f"{_called(each.called, each, array, place)}: {float(numbers.flat[place])!r} is no whole number"
+            )
         return numbers
     if each.kind == "truth" and array.dtype == np.bool_:
         return array.astype(np.float64)
     return _read(each, array)
 
 
+def _as_given(each: AgentInput, value: Any) -> npt.NDArray[Any]:  # noqa: ANN401 - as above
+    """Return values as an array; lists in which texts are beside numbers stay what they are."""
+    try:
+        array = np.asarray(value)
+        is_mixed = array.dtype.kind in "US" and not isinstance(value, np.ndarray)
+        return np.asarray(value, dtype=object) if is_mixed else array
+    except ValueError:
+        raise BadInput(f"{each.name}: {_needed(each)} is needed, not lists of different lengths") from None
+
+
+def _needed(each: AgentInput) -> str:
+    return f"an array of {' by '.join(['n', *map(str, each.shape)])} values"
+
+
 def _read(each: AgentInput, array: npt.NDArray[Any]) -> Floats:
-    """Return values of any kind, each different one read once."""
-    different, places = np.unique(array, return_inverse=True)
-    return np.array([float(each.read(value)) for value in different.tolist()])[places].reshape(array.shape)
+    """Return values of any kind; of those that have an order, each different one is read once."""
+    values = array.ravel()
+    first = places = np.arange(values.size)
+    if values.dtype != object:
+        _, first, places = np.unique(values, return_index=True, return_inverse=True)
+    found, names = np.zeros(first.size), each.called
+    for number in np.argsort(first):  # so that the first wrong one is told
+        place = int(first[number])
+        found[number] = each.read(values[place : place + 1].tolist()[0], _called(names, each, array, place))
+    return found[places].reshape(array.shape)
+
+
+def _called(names: Sequence[str], each: AgentInput, array: npt.NDArray[Any], place: int) -> str:
+    """Return what a value of an array is called, and of which robot it is, where each has one of its own."""
+    robot, own = divmod(place, each.size)
+    return names[own] + (f" of robot {robot}" if array.ndim > len(each.shape) else "")

@@ -175,7 +175,8 @@ def _run(program: Program) -> list[str]:
         own = names[first : first + each.size]
         first += each.size
         lines.append(f"        {_pattern(own, each.shape)} = given[{each.name!r}]")
-        reads += [line for name in own for line in _read(index, each, name)]
+        for name, called in zip(own, each.called, strict=True):
+            reads += _read(index, each, name, called)
     if program.inputs:
         lines.insert(1, "    try:")
         lines += [
@@ -203,7 +204,7 @@ def _pattern(names: Sequence[str], shape: tuple[int, ...]) -> str:
     return f"({''.join(f'{part}, ' for part in parts)})"
 
 
-def _read(index: int, each: AgentInput, name: str) -> list[str]:
+def _read(index: int, each: AgentInput, name: str, called: str) -> list[str]:
     """Return what makes sure of a value's kind; most often, it is a comparison or two."""
     match each.kind:
         case "number":
@@ -214,19 +215,19 @@ def _read(index: int, each: AgentInput, name: str) -> list[str]:
             is_other = f"{name} is not True and {name} is not False"
         case "cell" | "name":
             if not _is_looked_up(each):
-                return [f"    {name} = read_{index}({name})"]
+                return [f"    {name} = read_{index}({name}, {called!r})"]
             looked_up = f"labels_{index}[{name}] if type({name}) is str and {name} in labels_{index}"
-            return [f"    {name} = {looked_up} else read_{index}({name})"]
-    return [f"    if {is_other}:", f"        {name} = read_{index}({name})"]
+            return [f"    {name} = {looked_up} else read_{index}({name}, {called!r})"]
+    return [f"    if {is_other}:", f"        {name} = read_{index}({name}, {called!r})"]
 
 
 def _is_looked_up(each: AgentInput) -> bool:
     return each.kind in ("cell", "name") and not isinstance(each.cells, Numbers)
 
 
-def _reader(each: AgentInput, not_finite: Callable[[str, float], float]) -> Callable[[object], Scalar]:
-    def read(value: object) -> Scalar:
-        found = each.read(value)
-        return not_finite(each.name, found) if isinstance(found, float) and found - found != 0.0 else found
+def _reader(each: AgentInput, not_finite: Callable[[str, float], float]) -> Callable[[object, str], Scalar]:
+    def read(value: object, called: str) -> Scalar:
+        found = each.read(value, called)
+        return not_finite(called, found) if isinstance(found, float) and found - found != 0.0 else found
 
     return read

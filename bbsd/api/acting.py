@@ -231,9 +231,9 @@ class Agent:
     def _count_not_finite(self, rows: npt.NDArray[np.float64]) -> None:
         wrong = np.argwhere(~np.isfinite(rows))
         if len(wrong) and self._refuses:
-            names = [each.name for each in self.inputs.values() for _ in each.slots]
+            names = [called for each in self.inputs.values() for called in each.called]
             row, robot = wrong[0]
-            raise BadInput(f"{names[row]}: {float(rows[row, robot])!r} of robot {robot} is not finite")
+            raise BadInput(f"{names[row]} of robot {robot}: {float(rows[row, robot])!r} is not finite")
         self.not_finite += len(wrong)
 
     def _not_finite(self, name: str, value: float) -> float:

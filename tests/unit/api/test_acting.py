@@ -207,6 +207,13 @@ def test_lists_of_many_have_the_robots_first():
     assert len(agent.act_many({"whim": [0.25, 1], "sonar": sonar[:2], "light": [0.0] * 4}).numbers) == 2
 
 
+def holed(value):
+    """Distances of three robots, one of which is another value."""
+    sonar = np.zeros((3, 8), object)
+    sonar[2, 3] = value
+    return sonar if value is None or isinstance(value, str) else sonar.astype(float)
+
+
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
@@ -214,9 +221,14 @@ def test_lists_of_many_have_the_robots_first():
             {"sonar": np.zeros((3, 7))},
             "sonar: an array of n by 8 values is needed, not one of shape \\(3, 7\\)",
         ),
-        ({"whim": [1.0, 2.0]}, "the values are for different numbers of robots: 2, 3"),
-        ({"whim": ["a", "b", "c"]}, "whim: 'a' is no number"),
-        ({"whim": [1.0, np.nan, 2.0]}, "whim: nan of robot 1 is not finite"),
+        ({"whim": [1.0, 2.0]}, "different numbers of robots: 2 by whim, 3 by sonar, 3 by light"),
+        ({"whim": ["c", "a", "b"]}, "whim of robot 0: 'c' is no number"),
+        ({"whim": [1.0, np.nan, 2.0]}, "whim of robot 1: nan is not finite"),
+        ({"sonar": holed(np.nan)}, r"sonar\[3\] of robot 2: nan is not finite"),
+        ({"sonar": holed("far").tolist()}, r"sonar\[3\] of robot 2: 'far' is no number"),
+        ({"sonar": holed(None)}, r"sonar\[3\] of robot 2: None is no number"),
+        ({"light": [0.0, 0.0, "dark", 0.0]}, r"light\[2\]: 'dark' is no number"),
+        ({"sonar": [[1.0] * 8, [1.0] * 7]}, "n by 8 values is needed, not lists of different lengths"),
         ({"whim": 1.5, "wimm": 1.0}, "there is no 'wimm'; did you mean \"whim\""),
     ],
 )
@@ -224,8 +236,23 @@ def test_what_is_wrong_with_many_is_told(wrong, message):
     agent = Agent(SPECS / "mobile_robot_hand.yaml")
     with pytest.raises(BadInput, match=message):
         agent.act_many({"whim": 0.1, "sonar": np.zeros((3, 8)), "light": np.zeros((3, 4)), **wrong})
-    with pytest.raises(BadInput, match="missing: sonar"):
+    with pytest.raises(BadInput, match="missing: sonar") as raised:
         agent.act_many({"whim": 0.1, "light": np.zeros((3, 4))})
+    assert raised.value.advice.startswith("the inputs are ")
+    assert "sonar" in raised.value.advice
+
+
+def test_a_value_of_a_list_is_told_by_what_it_is_called():
+    agent = Agent(SPECS / "mobile_robot_hand.yaml")
+    seen = {"whim": 0.1, "sonar": [0.0] * 8, "light": [0.0] * 4}
+    for wrong, message in (
+        (float("nan"), r"sonar\[5\]: nan is not finite"),
+        ("x", r"sonar\[5\]: 'x' is no number"),
+    ):
+        sonar = [*seen["sonar"]]
+        sonar[5] = wrong
+        with pytest.raises(BadInput, match=message):
+            agent.act({**seen, "sonar": sonar})
 
 
 def test_it_says_what_it_must_be_given():
@@ -293,7 +320,7 @@ def test_what_is_missing_is_told(missing, message):
 def test_lists_of_a_wrong_length_are_told():
     agent = Agent(SPECS / "mobile_robot_hand.yaml")
     for sonar in ([1.0] * 7, [1.0] * 9, 1.0, "12345678"):
-        with pytest.raises(BadInput, match="sonar: "):
+        with pytest.raises(BadInput, match=r"sonar(\[0\])?: "):
             agent.act({"whim": 0.1, "sonar": sonar, "light": [0.0] * 4})
 
 
