@@ -39,7 +39,7 @@ def of_override(argument: str) -> tuple[Diagnosis, ...]:
 
 
 def test_the_codes_that_are_told_are_those_of_the_catalog() -> None:
-    sources = [path for path in PACKAGE.rglob("*.py") if path.parent != CATALOG]
+    sources = [path for path in PACKAGE.rglob("*.py") if CATALOG not in path.parents]
     used = {
         code for path in sources for code in re.findall(r'"(BB\d{3,})"', path.read_text(encoding="utf-8"))
     }
