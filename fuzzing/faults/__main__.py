@@ -15,6 +15,7 @@ from fuzzing.faults.commands import prepare
 from fuzzing.faults.kills import try_kills
 from fuzzing.faults.races import try_races
 from fuzzing.faults.states import try_states
+from fuzzing.faults.system import FAULTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,6 +35,9 @@ def main() -> int:
         choices=range(len(CASES)),
         help="only this case of calls; several times",
     )
+    parser.add_argument(
+        "--fault", action="append", choices=FAULTS, help="only this fault of calls; several times"
+    )
     parser.add_argument("--kills", type=int, default=200, help="kills at random instants (default: 200)")
     parser.add_argument(
         "--states", type=int, default=50, help="checkpoints damaged and resumed (default: 50)"
@@ -51,7 +55,7 @@ def main() -> int:
         spec = prepare(folder)
         cases = CASES if options.case is None else tuple(CASES[case] for case in options.case)
         trials = {
-            "calls": lambda: try_calls(spec, folder, options.step, cases),
+            "calls": lambda: try_calls(spec, folder, options.step, cases, options.fault or FAULTS),
             "kills": lambda: try_kills(spec, folder, options.kills, options.seed),
             "states": lambda: try_states(spec, folder, options.states, options.seed),
             "races": lambda: try_races(spec, folder, options.races),

@@ -13,7 +13,7 @@ from fuzzing.faults.system import FAULTS, System
 from fuzzing.faults.worker import ForkedWorker
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
     from fuzzing.faults.commands import Ended
@@ -65,6 +65,7 @@ class Trial:
         self.outcomes: dict[Fault, Counter[str]] = {fault: Counter() for fault in FAULTS}
         """How often what followed."""
         self.calls = log.read_text(encoding="utf-8").splitlines()
+        self._begun = 0 if case.further else _begun(self.calls)
 
     @staticmethod
     def _command(spec: Path, out: Path, case: Case, *more: str) -> list[str | Path]:
@@ -101,7 +102,7 @@ class Trial:
         first = self._disturbed(out, fault, number)
         outcome, told = self._outcome(fault, first, out)
         if not told:
-            resumed, told = self._continued(out)
+            resumed, told = self._continued(out, is_begun=number > self._begun)
             outcome = f"{outcome}, {resumed}"
         self.outcomes[fault]["wrong" if told else outcome] += 1
         return told
@@ -111,15 +112,17 @@ class Trial:
         if first.code == 0:
             files = self._wrong(out)
             return "complete", files and f"exit code 0, and wrong are {files}"
-        if fault in ("kill", "power"):
+        if fault in ("kill", "power", "names"):
             return "killed", "" if first.code == KILLED else f"not killed but {first}"
         is_told = first.is_refusal and str(out) in first.err
         return "refused", "" if is_told else f"the fault is not told: {first}"
 
-    def _continued(self, out: Path) -> tuple[str, str]:
+    def _continued(self, out: Path, *, is_begun: bool) -> tuple[str, str]:
         """Return how a user continued, and what went wrong when he did."""
         how, ended = "resumed", self._design(out, "--resume")
         if ended.is_refusal and AGAIN in ended.err:
+            if is_begun:
+                return how, f"what was begun is lost: {ended}"
             how, ended = "begun again as was said", self._design(out)
         if ended.code == 0 and self.case.further and len(_budgets(out)) == 1:
             ended = self._design(out, "--more", "5000")
@@ -130,6 +133,12 @@ class Trial:
 
     def _wrong(self, out: Path) -> str:
         return difference(written(out), self.expected)
+
+
+def _begun(calls: list[str]) -> int:
+    """Return the number of the call with which the beginning of a design has reached the disk."""
+    named = next(index for index, call in enumerate(calls) if call.startswith("replace .run.json."))
+    return next(index for index, call in enumerate(calls) if index > named and call.startswith("fsync ")) + 1
 
 
 def _budgets(out: Path) -> list[int]:
@@ -143,7 +152,11 @@ def _require(ended: Ended) -> None:
 
 
 def try_calls(
-    spec: Path, folder: Path, step: int = 1, cases: tuple[Case, ...] = CASES
+    spec: Path,
+    folder: Path,
+    step: int = 1,
+    cases: tuple[Case, ...] = CASES,
+    faults: Sequence[Fault] = FAULTS,
 ) -> Iterator[tuple[str, str]]:
     """Yield what was tried, and what went wrong in it, for every step-th call of each case and fault."""
     for index, case in enumerate(cases):
@@ -155,7 +168,7 @@ def try_calls(
             f"{case}: {len(trial.calls)} calls ({', '.join(f'{n} {k}' for k, n in sorted(kinds.items()))})",
             "",
         )
-        for offset, fault in enumerate(FAULTS):
+        for offset, fault in enumerate(faults):
             for number in range(1 + (offset + index) % step, len(trial.calls) + 1, step):
                 name = f"{case}: {fault} at call {number}, {trial.calls[number - 1]}"
                 yield name, trial.broken(fault, number)

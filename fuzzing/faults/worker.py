@@ -41,8 +41,10 @@ class ForkedWorker:
     def install(self) -> None:
         """Take the place of the processes that this one would start to do runs."""
         from bbsd.engines import local
+        from bbsd.runs import workers
 
-        vars(local)["processes_engine"] = self._engine
+        for module in (local, workers):  # whoever resumes asks the second one, which has its own name for it
+            vars(module)["processes_engine"] = self._engine
 
     @contextmanager
     def _engine(self, count: int, _imports: Sequence[str]) -> Iterator[ForkedWorker]:
