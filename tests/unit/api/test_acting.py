@@ -369,9 +369,9 @@ def test_truths_and_whole_numbers_of_many_have_to_be_such(tmp_path):
     acts = agent.act_many({"count": [1, 1, 0], "lit": np.array([True, False, True])})
     assert acts.numbers.tolist() == [1, 0, 0]
     assert np.isnan(acts.sets["x"]).tolist() == [False, True, True]
-    with pytest.raises(BadInput, match=r"count: 1\.5 is no whole number"):
+    with pytest.raises(BadInput, match=r"count of robot 1: 1\.5 is no whole number"):
         agent.act_many({"count": [1, 1.5, 0], "lit": [True] * 3})
-    with pytest.raises(BadInput, match="lit: 2 is neither true nor false"):
+    with pytest.raises(BadInput, match="lit of robot 1: 2 is neither true nor false"):
         agent.act_many({"count": 1, "lit": [1, 2, 0]})
 
 
