@@ -8,7 +8,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.forms import kind_by_form
 from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Named

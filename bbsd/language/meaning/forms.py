@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bbsd.expression.checks import require_kind
+from bbsd.expression.elaboration.checks import require_kind
+from bbsd.expression.elaboration.naming import settled
 from bbsd.expression.kinds import Kind
-from bbsd.expression.naming import settled
 from bbsd.expression.scope import Named
 
 if TYPE_CHECKING:

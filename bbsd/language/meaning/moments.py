@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, cast
 
-from bbsd.expression import elaboration
-from bbsd.expression.naming import one_reading
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.naming import one_reading
 from bbsd.expression.scope import Binding, Path, PerRobot, Scope, Shared, Unseen, Unusable, Value
 from bbsd.language.meaning.partitions import Partition, conditions_of_cells, elaborate_partition, is_partition
 

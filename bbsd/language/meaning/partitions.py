@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from itertools import count, pairwise
 from typing import TYPE_CHECKING
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.naming import one_reading
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.naming import one_reading
 from bbsd.expression.scope import Named
 from bbsd.expression.syntax.mistakes import KEY, Addition, Rewriting
 from bbsd.expression.syntax.text import render

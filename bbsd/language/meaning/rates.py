@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.graph import Graph, Level, Node, needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot

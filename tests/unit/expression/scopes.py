@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.graph import Graph, Level, Node, evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot

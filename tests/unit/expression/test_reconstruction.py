@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.graph import Graph, Level, evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot

@@ -12,10 +12,10 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bbsd.errors import did_you_mean
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.naming import one_reading, report_unknown_values
 from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.naming import one_reading, report_unknown_values
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Deferred, Path, PerRobot, Scope, Unusable, Value
 from bbsd.expression.syntax.mistakes import KEY, WHOLE

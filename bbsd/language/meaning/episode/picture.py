@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bbsd.expression import elaboration
-from bbsd.expression.checks import require_kind
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.checks import require_kind
 from bbsd.expression.graph import Node
 from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import WHOLE

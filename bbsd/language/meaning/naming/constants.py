@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Any, cast
 
-from bbsd.expression import elaboration
-from bbsd.expression.checks import require_finite
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.checks import require_finite
 from bbsd.expression.graph import (
     LEAVES,
     Graph,

@@ -6,9 +6,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.errors import nearest
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.naming import report_unknown_values
 from bbsd.expression.graph import Node
-from bbsd.expression.naming import report_unknown_values
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake, Rewriting
 from bbsd.expression.syntax.tree import Name
 from bbsd.language.meaning.forms import fitted, scalars_of

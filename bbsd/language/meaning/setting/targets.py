@@ -7,10 +7,10 @@ from functools import lru_cache
 from itertools import product
 from typing import TYPE_CHECKING
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.lookup import is_plain_number
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.lookup import is_plain_number
 from bbsd.expression.scope import Draws, Named
 from bbsd.expression.syntax.mistakes import KEY, ExpressionError, Mistake, in_key
 from bbsd.expression.syntax.parsing import parse

@@ -2,7 +2,7 @@ import sys
 
 import pytest
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.tree import functions_called, names_used, parts, stack_depth
 from tests.unit.expression.scopes import scope

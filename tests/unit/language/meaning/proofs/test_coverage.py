@@ -2,7 +2,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.syntax.parsing import parse
 from bbsd.language.meaning.proofs.coverage import covers_everything
 from tests.unit.expression.scopes import scope

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.parsing import parse
 from tests.unit.expression.scopes import marked, mistakes, scope, valued

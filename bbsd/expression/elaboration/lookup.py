@@ -8,11 +8,11 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from bbsd.errors import did_you_mean, nearest
-from bbsd.expression.checks import has_arguments, require_kind
+from bbsd.expression.elaboration.checks import has_arguments, require_kind
+from bbsd.expression.elaboration.naming import bare_name
+from bbsd.expression.elaboration.picking import pick
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
-from bbsd.expression.naming import bare_name
-from bbsd.expression.picking import pick
 from bbsd.expression.scope import (
     Deferred,
     Definition,

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.naming import listed, one_reading
 from bbsd.expression.graph import Level, evaluate
 from bbsd.expression.kinds import Kind
-from bbsd.expression.naming import listed, one_reading
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Definition, Named, PerRobot, Scope
 from bbsd.expression.syntax.parsing import parse

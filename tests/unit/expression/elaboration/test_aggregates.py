@@ -1,7 +1,7 @@
 import pytest
 
-from bbsd.expression import elaboration
-from bbsd.expression.aggregates import MAX_ELEMENTS
+from bbsd.expression.elaboration import elaboration
+from bbsd.expression.elaboration.aggregates import MAX_ELEMENTS
 from bbsd.expression.syntax.parsing import parse
 from tests.unit.expression.scopes import marked, scope, valued
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.checks import require_kind
+from bbsd.expression.elaboration.checks import require_kind
+from bbsd.expression.elaboration.naming import choose, compare, is_unknown, report_no_value
 from bbsd.expression.kinds import Kind
 from bbsd.expression.mistaken.cells import compared_with_cell
-from bbsd.expression.naming import choose, compare, is_unknown, report_no_value
 from bbsd.expression.scope import Named
 from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import Name
 
 if TYPE_CHECKING:
+    from bbsd.expression.elaboration.lookup import Elaborate
     from bbsd.expression.graph import Node
-    from bbsd.expression.lookup import Elaborate
     from bbsd.expression.scope import Scope, Value
     from bbsd.expression.syntax.tree import Comparison, Conditional
 

@@ -3,7 +3,7 @@ from dataclasses import replace
 
 import pytest
 
-from bbsd.expression import elaboration
+from bbsd.expression.elaboration import elaboration
 from bbsd.expression.graph import needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Definition

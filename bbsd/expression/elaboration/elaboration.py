@@ -10,14 +10,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.errors import nearest
-from bbsd.expression.aggregates import aggregate
-from bbsd.expression.checks import has_arguments, require_finite, require_kind, require_static_whole
+from bbsd.expression.elaboration.aggregates import aggregate
+from bbsd.expression.elaboration.checks import (
+    has_arguments,
+    require_finite,
+    require_kind,
+    require_static_whole,
+)
+from bbsd.expression.elaboration.lookup import call_definition, element, name_value
+from bbsd.expression.elaboration.naming import report_unknown_values, settled
+from bbsd.expression.elaboration.relations import comparison, conditional
 from bbsd.expression.kinds import Kind
-from bbsd.expression.lookup import call_definition, element, name_value
 from bbsd.expression.mistaken.draws import impossible_draw, missing_first, undrawn
-from bbsd.expression.naming import report_unknown_values, settled
 from bbsd.expression.operations import BY_WORD
-from bbsd.expression.relations import comparison, conditional
 from bbsd.expression.scope import Definition, Named, Unusable
 from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import render

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.expression.checks import has_arguments, require_kind, require_static_whole
+from bbsd.expression.elaboration.checks import has_arguments, require_kind, require_static_whole
+from bbsd.expression.elaboration.lookup import report_unseen
 from bbsd.expression.graph import Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.lookup import report_unseen
 from bbsd.expression.operations import BY_AGGREGATE
 from bbsd.expression.syntax.tree import Call, Generator, Name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bbsd.expression.lookup import Elaborate
+    from bbsd.expression.elaboration.lookup import Elaborate
     from bbsd.expression.scope import Scope, Value
     from bbsd.expression.syntax.tree import Expr, Span
 
