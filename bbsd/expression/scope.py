@@ -12,7 +12,7 @@ from bbsd.expression.syntax.mistakes import WHOLE, Mistake, TooManyMistakesError
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
-    from bbsd.expression.syntax.mistakes import Addition, Rewriting
+    from bbsd.expression.syntax.mistakes import Addition, Enclosing, Rewriting
     from bbsd.expression.syntax.tree import Expr, Span
 
 MAX_MISTAKES = 200
@@ -144,7 +144,7 @@ class Findings:
         message: str,
         span: Span = WHOLE,
         advice: str = "",
-        correction: Rewriting | Addition | None = None,
+        correction: Rewriting | Enclosing | Addition | None = None,
     ) -> None:
         """Add a mistake. Raises TooManyMistakesError with the last of `MAX_MISTAKES`."""
         self.add(path, Mistake(code, message, span, advice, correction))
@@ -248,7 +248,7 @@ class Scope:
         message: str,
         span: Span,
         advice: str = "",
-        correction: Rewriting | Addition | None = None,
+        correction: Rewriting | Enclosing | Addition | None = None,
     ) -> Node:
         """Report a mistake and return the unknown value."""
         self.findings.report(self.path, code, message, span, advice, correction)

@@ -90,6 +90,13 @@ def _label_of_best(expr: Call, elements: Sequence[Element], nodes: Sequence[Node
 def _elements(expr: Call, scope: Scope, elaborate: Elaborate) -> list[Element] | None:
     match expr.arguments:
         case (Generator() as generator,):
+            if isinstance(generator.source, Call) and len(generator.source.arguments) == 2:
+                from bbsd.expression.mistaken.calls import from_first_to_last
+
+                if (instead := from_first_to_last(generator, expr.function)) is not None:
+                    message = "range takes 1 argument, not 2: it counts from 0"
+                    scope.mistake("BB054", message, generator.source.span, *instead)
+                    return None
             return _of_generator(generator, scope, elaborate)
         case (argument,):
             return _of_list(expr, argument, elaborate(argument, scope), scope)
@@ -104,8 +111,11 @@ def _of_list(expr: Call, argument: Expr, value: Value, scope: Scope) -> list[Ele
     """Return the elements of one argument, which must be a list; but list(...) may have one value."""
     items = value if isinstance(value, tuple) else (value,)
     if not isinstance(value, tuple) and value.kind is not Kind.UNKNOWN and expr.function != "list":
-        advice = "give it several, a list, or (e for v in ...)"
-        scope.mistake("BB056", f"{expr.function} of one value", expr.span, advice)
+        from bbsd.expression.mistaken.calls import Instead, of_all_robots
+
+        instead = of_all_robots(argument, expr.function, scope)
+        advice, correction = instead or Instead("give it several, a list, or (e for v in ...)", None)
+        scope.mistake("BB056", f"{expr.function} of one value", expr.span, advice, correction)
         return None
     return [Element(scope.graph.number(index), item, argument.span) for index, item in enumerate(items)]
 

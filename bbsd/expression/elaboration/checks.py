@@ -5,16 +5,21 @@ from __future__ import annotations
 from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
+from bbsd.expression.elaboration.naming import listed
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Named
+from bbsd.expression.syntax.mistakes import Enclosing
 from bbsd.expression.syntax.tree import Generator
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from bbsd.expression.graph import Node
     from bbsd.expression.scope import Scope, Value
     from bbsd.expression.syntax.tree import Call, Span
 
+AS_NUMBER = "1 if ", " else 0"
 ADVICE = {Kind.TRUTH: "write the condition as: 1 if ... else 0", Kind.NUMBER: "compare it with something"}
 
 
@@ -27,10 +32,13 @@ def require_kind(value: Value, kind: Kind, span: Span, scope: Scope) -> Node:
         message = f"a named value, where {kind.value} is needed"
         name = value.names[0]
         advice = f"compare it: ... == {name}" if kind is Kind.TRUTH else f"write 1 if ... == {name} else 0"
+        if kind is Kind.NUMBER and scope.path[-2:-1] != ("reward",) and scope.path[-1] in scope.names:
+            advice = f"names have no next one: write which it becomes, {listed(value.names)}"
         return scope.mistake("BB139", message, span, advice)
     if value.kind not in (kind, Kind.UNKNOWN):
         message = f"{value.kind.value}, where {kind.value} is needed"
-        return scope.mistake("BB055", message, span, ADVICE.get(value.kind, ""))
+        correction = Enclosing(*AS_NUMBER, span) if value.kind is Kind.TRUTH else None
+        return scope.mistake("BB055", message, span, ADVICE.get(value.kind, ""), correction)
     return value
 
 
@@ -57,13 +65,16 @@ def require_static_whole(value: Value, purpose: str, span: Span, scope: Scope) -
     return int(number)
 
 
-def has_arguments(call: Call, wanted: int, scope: Scope) -> bool:
+def has_arguments(call: Call, wanted: int, scope: Scope, parameters: Sequence[str] = ()) -> bool:
     """Return whether a call has as many arguments as are wanted and no generator; report it if not."""
     if any(isinstance(argument, Generator) for argument in call.arguments):
         scope.mistake("BB062", f"{call.function} takes no generator", call.span)
         return False
     if len(call.arguments) != wanted:
         takes = f"{wanted} argument{'s' * (wanted != 1)}"
-        scope.mistake("BB054", f"{call.function} takes {takes}, not {len(call.arguments)}", call.span)
+        from bbsd.expression.mistaken.calls import wrong_number
+
+        message = f"{call.function} takes {takes}, not {len(call.arguments)}"
+        scope.mistake("BB054", message, call.span, *wrong_number(call, parameters))
         return False
     return True

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bbsd.errors import nearest
 from bbsd.expression.elaboration.aggregates import aggregate
 from bbsd.expression.elaboration.checks import (
     has_arguments,
@@ -21,11 +20,11 @@ from bbsd.expression.elaboration.lookup import call_definition, element, name_va
 from bbsd.expression.elaboration.naming import report_unknown_values, settled
 from bbsd.expression.elaboration.relations import comparison, conditional
 from bbsd.expression.kinds import Kind
+from bbsd.expression.mistaken.calls import mean_by_hand
 from bbsd.expression.mistaken.draws import impossible_draw, missing_first, undrawn
+from bbsd.expression.mistaken.names import comment
 from bbsd.expression.operations import BY_WORD
-from bbsd.expression.scope import Definition, Named, Unusable
-from bbsd.expression.syntax.mistakes import Rewriting
-from bbsd.expression.syntax.text import render
+from bbsd.expression.scope import Definition, Named
 from bbsd.expression.syntax.tree import (
     Binary,
     Call,
@@ -43,7 +42,7 @@ from bbsd.expression.syntax.tree import (
     Unary,
     parts,
 )
-from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS, PARTITIONS, SOURCES
+from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS
 from bbsd.kernel.streams import fold, name_word, word_of
 
 if TYPE_CHECKING:
@@ -184,6 +183,8 @@ def _unary(expr: Unary, scope: Scope) -> Node:
 
 
 def _arithmetic(expr: Binary, scope: Scope) -> Node:
+    if (told := comment(expr, scope) or mean_by_hand(expr, scope)) is not None:
+        return told
     left = _of_kind(expr.left, Kind.NUMBER, scope)
     return scope.graph.apply(BY_WORD[expr.operator], left, _of_kind(expr.right, Kind.NUMBER, scope))
 
@@ -222,33 +223,9 @@ def _call(expr: Call, scope: Scope) -> Value:
         return _before(expr, scope)
     if isinstance(binding, Definition):
         return call_definition(expr, binding, scope, _value)
-    return _uncallable(expr, scope)
+    from bbsd.expression.mistaken.uncallable import report_uncallable
 
-
-def _uncallable(expr: Call, scope: Scope) -> Node:
-    name, binding = expr.function, scope.names.get(expr.function)
-    if isinstance(binding, Unusable) and not binding.reason:
-        return scope.graph.unknown
-    if name in PARTITIONS:
-        message = f"{name}(...) cuts an input or a sensor into cells; it is not a number"
-        return scope.mistake("BB053", message, expr.span)
-    if name in SOURCES:
-        return scope.mistake("BB053", f"{name} can only stand after in", expr.span)
-    if binding is not None or name in scope.local:
-        return scope.mistake("BB053", f"{name} is not a function", expr.span)
-    from bbsd.expression.foreign.calls import other_name
-
-    definitions = [key for key, bound in scope.names.items() if isinstance(bound, Definition)]
-    if (other := other_name(name, [render(argument) for argument in expr.arguments])) is not None:
-        new, is_certain = other
-        message, advice = f'unknown function "{name}"', f"write {new}"
-        span = Span(expr.span.start, len(name))
-        return scope.mistake("BB053", message, span, advice, Rewriting(new, expr.span, is_certain))
-    near = nearest(name, [*FUNCTIONS, *AGGREGATES, *DRAWS, "before", *definitions])
-    hint = f'; did you mean "{near}"?' if near else ""
-    span = Span(expr.span.start, len(name))
-    correction = Rewriting(near, span, is_certain=False) if near else None
-    return scope.mistake("BB053", f'unknown function "{name}"{hint}', span, correction=correction)
+    return report_uncallable(expr, scope, _value)
 
 
 def _numbers(expr: Call, wanted: int, scope: Scope) -> list[Node]:

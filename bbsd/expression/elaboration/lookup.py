@@ -81,6 +81,10 @@ def _without_value(expr: Name, scope: Scope) -> Node:
 
 
 def _unknown_name(expr: Name, scope: Scope) -> Node:
+    from bbsd.expression.mistaken.names import known_elsewhere
+
+    if (known := known_elsewhere(expr, scope)) is not None:
+        return scope.mistake("BB052", f'unknown name "{expr.name}"', expr.span, *known)
     message = _unknown(expr.name, scope)
     near = (
         nearest(expr.name, [*scope.local, *scope.names, *CONSTANTS, *scope.choices])
@@ -117,7 +121,7 @@ def call_definition(expr: Call, definition: Definition, scope: Scope, elaborate:
     if not definition.parameters:
         message = f"{expr.function} has no parameters; write it without parentheses"
         return scope.mistake("BB054", message, expr.span)
-    if not has_arguments(expr, len(definition.parameters), scope):
+    if not has_arguments(expr, len(definition.parameters), scope, definition.parameters):
         return scope.graph.unknown
     arguments = tuple(elaborate(argument, scope) for argument in expr.arguments)
     return _definition(expr, definition, arguments, scope, elaborate)
@@ -229,14 +233,23 @@ def _name_of_robots(of: Expr, scope: Scope, elaborate: Elaborate) -> str | None:
     return None if isinstance(name_value(of, scope, elaborate), tuple) else of.name
 
 
+def _no_element(index: float, length: int, at: Expr, scope: Scope) -> Node:
+    message = f"there is no element {index:g}; the {length} count from 0 to {length - 1}"
+    if not -length <= index <= length or not index.is_integer():
+        return scope.mistake("BB057", message, at.span)
+    from_end = int(index) + length
+    last = from_end if index < 0 else length - 1
+    advice = f"write {last}" if index < 0 else f"the last is {last}"
+    return scope.mistake(
+        "BB057", message, at.span, advice, Rewriting(str(last), at.span, is_certain=index < 0)
+    )
+
+
 def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Value:
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
     if is_plain_number(at) and not 0 <= value_of(index) < len(items):
-        message = (
-            f"there is no element {value_of(index):g}; the {len(items)} count from 0 to {len(items) - 1}"
-        )
-        return scope.mistake("BB057", message, at.span)
+        return _no_element(value_of(index), len(items), at, scope)
     if not index.literal and len({_shape(item) for item in items}) > 1:
         if any(isinstance(item, Node) and item.kind is Kind.UNKNOWN for item in items):
             return scope.graph.unknown

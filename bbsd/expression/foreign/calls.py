@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import itertools
 import re
-from typing import TYPE_CHECKING
 
+from bbsd.expression.foreign.functions import OTHER_NAMES, other_name
 from bbsd.expression.foreign.tokens import (
     OPENING,
     Step,
     arguments,
-    operand_end,
     operand_start,
     reads,
     spliced,
@@ -18,107 +17,9 @@ from bbsd.expression.foreign.tokens import (
 )
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-OTHER_NAMES = {
-    "fabs": "abs",
-    "absolute": "abs",
-    "magnitude": "abs",
-    "ln": "log",
-    "log_10": "log10",
-    "lg": "log10",
-    "arctan2": "atan2",
-    "arctan": "atan",
-    "arcsin": "asin",
-    "arccos": "acos",
-    "sgn": "sign",
-    "signum": "sign",
-    "copysign": "sign",
-    "ceiling": "ceil",
-    "deg2rad": "radians",
-    "rad2deg": "degrees",
-    "to_radians": "radians",
-    "to_degrees": "degrees",
-    "norm": "hypot",
-    "minimum": "min",
-    "maximum": "max",
-    "fmin": "min",
-    "fmax": "max",
-    "average": "mean",
-    "avg": "mean",
-    "total": "sum",
-    "gauss": "normal",
-    "gaussian": "normal",
-    "normalvariate": "normal",
-    "randn": "normal",
-    "randint": "integers",
-    "randi": "integers",
-    "random_integers": "integers",
-    "random": "uniform",
-    "rand": "uniform",
-    "unif": "uniform",
-    "bernoulli": "chance",
-    "probability": "chance",
-    "prob": "chance",
-    "prev": "before",
-    "previous": "before",
-    "last": "before",
-    "old": "before",
-    "pre": "before",
-    "delay": "before",
-    "lag": "before",
-    "clamp": "clip",
-    "normalize_angle": "wrap",
-    "wrap_angle": "wrap",
-    "wrap_to_pi": "wrap",
-    "saturate": "clip",
-    "constrain": "clip",
-    "limit": "clip",
-    "bound": "clip",
-}
-"""What functions are called elsewhere, and what they are called here."""
-IN_DEGREES = {"sind": "sin", "cosd": "cos", "tand": "tan"}
-OUT_OF_DEGREES = {"asind": "asin", "acosd": "acos", "atand": "atan", "atan2d": "atan2"}
 MODULES = frozenset({"math", "np", "numpy", "Math", "cmath", "torch", "jnp", "random", "std", "m"})
 OWNERS = frozenset({"self", "this", "state", "world", "env", "environment", "constants", "sensors", "me"})
 TEAMS = frozenset({"robots", "robot", "agents", "agent", "team", "others", "other"})
-
-
-def other_name(function: str, values: Sequence[str]) -> tuple[str, bool] | None:
-    """Return a call as it is written here, and whether that is certain; None for a function of no other language."""
-    given = ", ".join(values)
-    if function in ("pow", "power") and len(values) == 2:
-        return f"{_atom(values[0])} ** {_atom(values[1])}", True
-    if function in ("square", "sqr", "sq") and len(values) == 1:
-        return f"{_atom(values[0])} ** 2", True
-    if function in ("mod", "fmod", "remainder", "modulo") and len(values) == 2:
-        return f"{_atom(values[0])} % {_atom(values[1])}", True
-    if function in ("where", "ifelse", "iif", "cond", "select", "choose") and len(values) == 3:
-        return f"({values[1]} if {values[0]} else {values[2]})", True
-    if function in ("int", "trunc", "fix") and len(values) == 1:
-        return f"floor({given})", False
-    if function in ("float", "double", "bool") and len(values) == 1:
-        return values[0], True
-    if function in IN_DEGREES and len(values) == 1:
-        return f"{IN_DEGREES[function]}(radians({given}))", True
-    if function in OUT_OF_DEGREES:
-        return f"degrees({OUT_OF_DEGREES[function]}({given}))", True
-    if function in ("rand", "random") and not values:
-        return "uniform(0, 1)", True
-    if function == "randn" and not values:
-        return "normal(0, 1)", True
-    if function not in OTHER_NAMES:
-        return None
-    name = OTHER_NAMES[function]
-    arity = DRAWS[name][0] if name in DRAWS else FUNCTIONS[name].arity if name in FUNCTIONS else None
-    return f"{name}({given})", arity in (None, len(values))
-
-
-def _atom(text: str) -> str:
-    """Return a text in parentheses where it is more than one operand."""
-    found = tokens(text)
-    return text if operand_end(found, 0) == len(found) else f"({text})"
 
 
 def module(text: str, _key: str) -> Step | None:
@@ -198,6 +99,11 @@ def attribute(text: str, _key: str) -> Step | None:
                 f"write {new}",
                 spliced(text, owner.start, called[1], new),
             )
+        if re.search(rf"\bfor\s+{owner.text}\s+in\b", text) and begin == at - 1:
+            new = f"{name.text}[{owner.text}]"
+            message = f'another robot\'s value is not written "{written}"'
+            changed = spliced(text, owner.start, name.end, new)
+            return Step(owner.start, name.end - owner.start, message, f"write {new}", changed)
         if owner.text in TEAMS:
             message = f'another robot\'s value is not written "{written}"'
             return Step(

@@ -181,13 +181,31 @@ def bars(text: str, _key: str) -> Step | None:
     return None
 
 
+QUOTES = {"“": "”", "„": "“", "”": "”", "«": "»", "‘": "’", "‚": "‘"}
+"""Quotes as a word processor writes them, each with the one that closes it."""
+
+
+def quotes(text: str, _key: str) -> Step | None:
+    """Find typographic quotes around an expression."""
+    inner, first = text.strip(), text[: len(text) - len(text.lstrip())]
+    if len(inner) < 2 or not (inner[0] in QUOTES and inner[-1] in (QUOTES[inner[0]], "”", "’")):
+        return None
+    message = f"{inner[0]}...{inner[-1]} are no quotes in YAML"
+    return Step(len(first), 1, message, 'leave them out, or write "..."', f"{first}{inner[1:-1]}")
+
+
 def comment(text: str, _key: str) -> Step | None:
-    """Find a comment of C, or one of MATLAB, behind an expression."""
-    for mark in ("//", "/*", "--", "%", ";"):
+    """Find a comment of C, or one of MATLAB, behind an expression, or one without a blank before it."""
+    for mark in ("#", "//", "/*", "--", "%", ";"):
         at = text.find(mark)
         before, after = text[:at].rstrip(), text[at + len(mark) :]
         if at <= 0 or not reads(before):
             continue
+        if mark == "#":
+            message = "a comment begins with a blank and #"
+            return Step(
+                at, len(text) - at, message, "put a blank before the #", f"{before} # {after.strip()}"
+            )
         if mark == ";" and not after.strip():
             return Step(at, 1, 'no ";" ends an expression', "leave it out", before)
         if mark != ";" and (_is_prose(after) or mark == "/*"):
@@ -200,10 +218,16 @@ def comment(text: str, _key: str) -> Step | None:
 
 
 def _is_prose(text: str) -> bool:
-    """Return whether two words stand beside each other in a text, and no operator stands in it."""
+    """Return whether a text is no part of an expression: words stand beside each other, and no operator between."""
+    if re.search(r"[&|=<>?*+!^]", text):
+        return False
     words = re.findall(r"[A-Za-z_]\w*", text)
-    are_beside = re.search(r"[A-Za-z]\w*\s+[A-Za-z]\w*", text) is not None
-    return are_beside and not set(words) & KEYWORDS and not re.search(r"[&|=<>?*+!^]", text)
+    pairs = re.findall(r"(?=\b([A-Za-z]\w*)\s+([A-Za-z]\w*))", text)
+    if any(not {*pair} & KEYWORDS for pair in pairs):
+        return True
+    # "for safety" and "speed in meters" are none either, but a part of "sum(a // b for b in team)" is.
+    begins = bool(words) and words[0] in KEYWORDS - {"not"} and text.strip().startswith(words[0])
+    return begins or bool(pairs and {"in", "is"} & set(words) and "for" not in words)
 
 
 def times(text: str, _key: str) -> Step | None:

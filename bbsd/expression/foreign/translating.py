@@ -7,6 +7,15 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.foreign.calls import attribute, foreign_function, listed_arguments, module, open_bracket
 from bbsd.expression.foreign.conditionals import else_if, if_first, question_mark, without_else
+from bbsd.expression.foreign.lists import (
+    comprehension,
+    filtered,
+    list_in_brackets,
+    membership,
+    repeated,
+    slice_of_list,
+    two_indices,
+)
 from bbsd.expression.foreign.numbers import decimal_comma, percent, unit
 from bbsd.expression.foreign.signs import (
     assignment,
@@ -15,6 +24,7 @@ from bbsd.expression.foreign.signs import (
     foreign_sign,
     named_argument,
     power_of_square,
+    quotes,
     times,
 )
 from bbsd.expression.foreign.tokens import reads
@@ -30,6 +40,7 @@ MAX_STEPS = 20
 MAX_LENGTH = 1000
 """Characters of a text in which foreign things are searched."""
 RULES: tuple[Callable[[str, str], Step | None], ...] = (
+    quotes,
     assignment,
     comment,
     question_mark,
@@ -42,8 +53,15 @@ RULES: tuple[Callable[[str, str], Step | None], ...] = (
     module,
     attribute,
     named_argument,
+    membership,
+    slice_of_list,
+    two_indices,
+    comprehension,
+    filtered,
+    repeated,
     foreign_sign,
     listed_arguments,
+    list_in_brackets,
     open_bracket,
     if_first,
     without_else,

@@ -41,6 +41,18 @@ class Rewriting:
 
 
 @dataclass(frozen=True, slots=True)
+class Enclosing:
+    """Texts around a part of an expression; the whole is put in parentheses where it is not all, nor a call.
+
+    It is never certain.
+    """
+
+    before: str
+    after: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Addition:
     """An entry, `key: value`, that a block mapping lacks: its first one, or the one behind the entry at `behind`.
 
@@ -64,7 +76,7 @@ class Mistake:
     message: str
     span: Span = WHOLE
     advice: str = ""
-    correction: Rewriting | Addition | Correction | None = None
+    correction: Rewriting | Enclosing | Addition | Correction | None = None
     seen_at: tuple[ValuePath, ...] = ()
 
 

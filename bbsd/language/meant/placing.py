@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.errors import Correction
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Rewriting, characters_of_key
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Enclosing, Rewriting, characters_of_key
 from bbsd.language.meant.layout import begins_line, column
 from bbsd.language.validation import child
 from bbsd.text import read
@@ -29,11 +29,17 @@ class Placing:
     def __init__(self, files: Lineage) -> None:
         self._files, self._left = files, MAX_CHARACTERS
 
-    def placed(self, correction: Rewriting | Addition | Correction | None, path: Path) -> Correction | None:
+    def placed(
+        self, correction: Rewriting | Enclosing | Addition | Correction | None, path: Path
+    ) -> Correction | None:
         """Return a correction with its edits; None where the file would not then say what is meant."""
         if correction is None or isinstance(correction, Correction):
             return correction
         told_in = self._files.document(path)
+        if isinstance(correction, Enclosing):
+            correction = _enclosed(correction, path, told_in)
+            if correction is None:
+                return None
         path = correction.mapping if isinstance(correction, Addition) else correction.at or path
         document = self._files.document(path)
         self._left -= len(document.source.text)
@@ -44,6 +50,19 @@ class Placing:
             return None if added is None else Correction((added,), is_certain=False)
         edits = _edits(correction, path, document) if self._left >= 0 else None
         return None if edits is None else Correction((edits,), correction.is_certain)
+
+
+def _enclosed(enclosing: Enclosing, path: Path, document: Document) -> Rewriting | None:
+    """Return what is to be written for the part of an expression that gets texts around it."""
+    node, (start, length) = document.node(path), enclosing.span
+    if not isinstance(node, Scalar) or characters_of_key(enclosing.span) is not None:
+        return None
+    part = node.text[start : start + length]
+    is_all = not (node.text[:start] + node.text[start + length :]).strip()
+    new = f"{enclosing.before}{part}{enclosing.after}"
+    if not is_all and not enclosing.before.endswith("("):
+        new = f"({new})"
+    return Rewriting(new, enclosing.span, is_certain=False)
 
 
 def _added(addition: Addition, document: Document) -> Edit | None:
