@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 MAX_STEPS = 20
 MAX_LENGTH = 1000
 """Characters of a text in which foreign things are searched."""
+ONE_OF = "BB136"
+"""The code of what is wrong in `one of [...]`, where a list stands in brackets."""
 RULES: tuple[Callable[[str, str], Step | None], ...] = (
     quotes,
     assignment,
@@ -75,7 +77,7 @@ def translated(text: str, mistake: Mistake, key: str = "") -> Mistake:
 
     A mistake in which nothing foreign is found is returned as it is. `key` is the key whose value the text is.
     """
-    if len(text) > MAX_LENGTH:
+    if len(text) > MAX_LENGTH or mistake.code == ONE_OF:
         return mistake
     steps = _steps(text.replace("\n", " ").replace("\t", " "), key)
     if not steps:
