@@ -2,12 +2,10 @@
 
 from bbsd.evaluation.agents import Agents, agents_of
 from bbsd.evaluation.choosing import RANKS, NoSuchEpisode, Rank, chosen_episode
-from bbsd.evaluation.decisions import Decisions
 from bbsd.evaluation.episodes import detailed_outcomes, returns_of
 from bbsd.evaluation.exact.enumeration import NotEnumerable, enumerate_starts
 from bbsd.evaluation.finite import RewardNotFinite, require_finite
 from bbsd.evaluation.paired import PairedEpisodes, paired_episodes
-from bbsd.evaluation.scene import Scene
 from bbsd.evaluation.spread import EachEpisode, Spread
 from bbsd.evaluation.statistics import (
     Evaluation,
@@ -18,8 +16,10 @@ from bbsd.evaluation.statistics import (
     weighted_evaluation,
 )
 from bbsd.evaluation.streams import episode_key, evaluation_key, evaluation_keys
-from bbsd.evaluation.traced import Trace
-from bbsd.evaluation.tracing import trace
+from bbsd.evaluation.tracing.decisions import Decisions
+from bbsd.evaluation.tracing.scene import Scene
+from bbsd.evaluation.tracing.traced import Trace
+from bbsd.evaluation.tracing.tracing import trace
 
 __all__ = [
     "RANKS", "Agents", "Decisions", "EachEpisode", "Evaluation", "Interval", "NoSuchEpisode", "NotEnumerable",

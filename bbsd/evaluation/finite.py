@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from bbsd.evaluation.tracing import trace
+from bbsd.evaluation.tracing.tracing import trace
 
 if TYPE_CHECKING:
     from bbsd.compiler import Problem

@@ -7,14 +7,14 @@ from io import StringIO
 from typing import TYPE_CHECKING
 
 from bbsd.errors import inert_cell
-from bbsd.evaluation.traced import trace_columns
+from bbsd.evaluation.tracing.traced import trace_columns
 from bbsd.expression.node_data import variable_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bbsd.evaluation import EachEpisode, Trace
-    from bbsd.evaluation.traced import Value
+    from bbsd.evaluation.tracing.traced import Value
 
 
 def csv_text(trace: Trace, *, long: bool = False) -> str:

@@ -19,7 +19,7 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.runs.storage.state import RunState, Searching
 from bbsd.solver.arena import Arena
 from bbsd.solver.early import ENDINGS, NOT_ENDED, RETURN, TIME, UNIMPROVED, Measured, measured
-from bbsd.solver.methods.q_learning import TooManyJointCells
+from bbsd.solver.methods.q_learning.q_learning import TooManyJointCells
 from bbsd.solver.methods.registry import METHODS
 from bbsd.solver.search import ROUNDS, final_race, search_budget
 from bbsd.solver.space import Designs, Space

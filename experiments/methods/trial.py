@@ -12,7 +12,7 @@ from bbsd.runs.run import generations, run_key, start
 from bbsd.runs.searching import Course
 from bbsd.runs.storage.state import Searching
 from bbsd.solver.methods.method import SearchState
-from bbsd.solver.methods.q_learning import TooManyJointCells
+from bbsd.solver.methods.q_learning.q_learning import TooManyJointCells
 from bbsd.solver.paper.generation import State
 from bbsd.solver.paper.settings import settings_of
 from bbsd.solver.search import final_race, search_budget

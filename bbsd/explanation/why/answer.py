@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bbsd.architecture import joint_space
 from bbsd.architecture.possible import possible_cells
 from bbsd.architecture.sayings import one_line
-from bbsd.evaluation.decisions import layers_of
+from bbsd.evaluation.tracing.decisions import layers_of
 from bbsd.explanation.why.aim import NOBODY
 from bbsd.explanation.why.otherwise import otherwise
 from bbsd.explanation.why.redesign import deciding
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bbsd.architecture import Architecture
-    from bbsd.evaluation.decisions import Layer
+    from bbsd.evaluation.tracing.decisions import Layer
     from bbsd.explanation.why.otherwise import Otherwise
     from bbsd.explanation.why.redesign import Deciding
     from bbsd.explanation.why.situation import Listed, Situation

@@ -17,7 +17,7 @@ from bbsd.language.meaning.situation import modules_in_a_situation, uncertain_se
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from bbsd.evaluation.traced import Value
+    from bbsd.evaluation.tracing.traced import Value
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning

@@ -10,7 +10,7 @@ import numpy as np
 from bbsd.architecture import Architecture
 from bbsd.architecture.policy import policy
 from bbsd.errors import UsageError
-from bbsd.evaluation.decisions import layers_of
+from bbsd.evaluation.tracing.decisions import layers_of
 from bbsd.explanation.why.aim import act_name, acts_named, acts_of
 from bbsd.explanation.why.perception import joint_cell, nearest_perception
 from bbsd.explanation.why.redesign import Exchange, NewWish, Replacement, deciding, smallest_changes

@@ -12,7 +12,7 @@ from bbsd.explanation.why.aim import NOBODY
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from bbsd.evaluation.traced import Value
+    from bbsd.evaluation.tracing.traced import Value
     from bbsd.explanation.why.answer import Answer, LayerAnswer
     from bbsd.explanation.why.otherwise import DesignChange, Otherwise, Way
     from bbsd.explanation.why.situation import Listed

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation.recording import record_episode
+from bbsd.evaluation.tracing.recording import record_episode
 from bbsd.exports.sensing.playing import Situation, random_number
 from bbsd.expression.graph import needed
 from bbsd.expression.kinds import Kind

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from bbsd.evaluation import Trace
-    from bbsd.evaluation.traced import Value
+    from bbsd.evaluation.tracing.traced import Value
     from bbsd.expression.node_data import Slot
     from bbsd.language.models import Spec
 

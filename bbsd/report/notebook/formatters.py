@@ -80,7 +80,7 @@ def _watched(watched: Watched) -> str:
 
 def _trace(trace: Trace) -> str:
     """Return the first and the last steps of a trace; `to_frame` has all of them."""
-    from bbsd.evaluation.traced import trace_columns
+    from bbsd.evaluation.tracing.traced import trace_columns
 
     columns = list(trace_columns(trace))
     rows = [
@@ -95,7 +95,7 @@ def _trace(trace: Trace) -> str:
 
 FORMATTERS: dict[str, Callable[[Any], str]] = {
     "bbsd.evaluation.statistics.Evaluation": _evaluation,
-    "bbsd.evaluation.traced.Trace": _trace,
+    "bbsd.evaluation.tracing.traced.Trace": _trace,
     "bbsd.api.results.Designed": _designed,
     "bbsd.explanation.words.Explanation": _explanation,
     "bbsd.explanation.why.answer.Answer": _answer,

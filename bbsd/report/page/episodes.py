@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from bbsd.api.paging import Replay
     from bbsd.evaluation import Scene
-    from bbsd.evaluation.traced import Value
+    from bbsd.evaluation.tracing.traced import Value
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
     from bbsd.report.plain import Plain

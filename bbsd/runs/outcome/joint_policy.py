@@ -11,7 +11,7 @@ from bbsd.evaluation import Agents, Interval, interval, returns_of
 from bbsd.runs.storage.state import Searching
 from bbsd.solver.arena import Arena
 from bbsd.solver.judgement import judging_keys
-from bbsd.solver.methods.q_learning import QState
+from bbsd.solver.methods.q_learning.q_learning import QState
 
 if TYPE_CHECKING:
     from bbsd.runs.command import Command

@@ -17,10 +17,11 @@ import numpy as np
 from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.climb import Climb, advance_climb, begin_climb
-from bbsd.solver.methods import joint, practice, q_learning, random_search, societies
+from bbsd.solver.methods import joint, practice, random_search, societies
 from bbsd.solver.methods.founding import led
 from bbsd.solver.methods.method import Method, SearchState, with_champions
 from bbsd.solver.methods.nomination import CAPACITY, begun, nominated, with_rest_spent
+from bbsd.solver.methods.q_learning import q_learning
 from bbsd.solver.space import Designs
 
 if TYPE_CHECKING:

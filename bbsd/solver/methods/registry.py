@@ -5,16 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bbsd.solver.methods import (
-    auto,
-    cross_entropy,
-    hill,
-    joint,
-    practice,
-    q_learning,
-    random_search,
-    societies,
-)
+from bbsd.solver.methods import auto, cross_entropy, hill, joint, practice, random_search, societies
+from bbsd.solver.methods.q_learning import q_learning
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

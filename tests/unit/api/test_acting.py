@@ -18,7 +18,7 @@ from bbsd.api.acting import Agent, NothingDone
 from bbsd.architecture import Architecture, HolesLeft, architecture_of
 from bbsd.architecture.needs import NotMeasured
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation.recording import record_episode
+from bbsd.evaluation.tracing.recording import record_episode
 from bbsd.expression.node_data import variable_text
 from bbsd.kernel.modules import load_kernel
 from bbsd.language.loading import load

@@ -12,7 +12,7 @@ from bbsd.compiler.tabulated import OUTCOME, STATE, NotTabulated, tabulated
 from bbsd.environments.tables import Transition, table_of
 from bbsd.evaluation import evaluation_keys, returns_of, trace
 from bbsd.evaluation.faults import faulty_meaning, read_fault
-from bbsd.evaluation.scene import starting_values
+from bbsd.evaluation.tracing.scene import starting_values
 from bbsd.expression.node_data import TOP_BIT, Slot
 from bbsd.kernel.streams import fold, uniform, word_of
 from bbsd.solver.random_agents import random_agents

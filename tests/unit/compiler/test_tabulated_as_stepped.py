@@ -11,7 +11,7 @@ from bbsd.environments.lanes.gymnasium import GymnasiumLanes
 from bbsd.environments.opening import open_environment, recipe_of
 from bbsd.environments.tables import copied_table
 from bbsd.evaluation import evaluation_keys, returns_of
-from bbsd.evaluation.scene import starting_values
+from bbsd.evaluation.tracing.scene import starting_values
 from bbsd.solver.random_agents import random_agents
 from tests.unit.architecture.designs import meaning_of
 from tests.unit.tabular import CLIFF, ICE, LAKE, TAXI

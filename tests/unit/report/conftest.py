@@ -10,7 +10,7 @@ import pytest
 from bbsd.api import Designed
 from bbsd.architecture.visits import Visits
 from bbsd.evaluation import Decisions, Evaluation, Interval, Trace
-from bbsd.evaluation.decisions import Layer
+from bbsd.evaluation.tracing.decisions import Layer
 from bbsd.expression.node_data import Slot
 from bbsd.solver.judgement import Selection
 

@@ -8,7 +8,7 @@ from bbsd.architecture import Architecture, architecture_of
 from bbsd.architecture.controller import controller_of
 from bbsd.architecture.needs import NotMeasured, NotRemembered, needs_of
 from bbsd.compiler import compile_meaning
-from bbsd.evaluation.recording import record_episode
+from bbsd.evaluation.tracing.recording import record_episode
 from bbsd.expression.graph import evaluate
 from bbsd.expression.kinds import Kind
 from bbsd.kernel.streams import DISTRIBUTIONS, fold, word_of

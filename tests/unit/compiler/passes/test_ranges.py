@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from bbsd.compiler.passes.ranges import ranges_of
 from bbsd.errors import SpecError
-from bbsd.evaluation.tracing import trace
+from bbsd.evaluation.tracing.tracing import trace
 from bbsd.expression.node_data import Slot
 from tests.unit.architecture.designs import meaning_of, random_architecture
 from tests.unit.problems import problem_of

@@ -94,7 +94,7 @@ def test_formatters_are_registered_when_a_function_is_first_used_in_a_notebook(m
     shell.display_formatter.formatters["text/html"].deferred_printers.clear()
     monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
     assert bbsd.evaluate
-    assert ("bbsd.evaluation.traced", "Trace") in shell.display_formatter.formatters[
+    assert ("bbsd.evaluation.tracing.traced", "Trace") in shell.display_formatter.formatters[
         "text/html"
     ].deferred_printers
 

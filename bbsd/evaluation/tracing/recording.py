@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bbsd.compiler.details import traced_columns
-from bbsd.evaluation.scene import starting_values
+from bbsd.evaluation.tracing.scene import starting_values
 
 if TYPE_CHECKING:
     from bbsd.architecture import Architecture

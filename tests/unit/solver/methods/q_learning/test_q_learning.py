@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from bbsd.solver.arena import Arena
-from bbsd.solver.methods import q_learning
 from bbsd.solver.methods.method import arrays_of, restored
-from bbsd.solver.methods.q_learning import METHOD, TooManyJointCells
+from bbsd.solver.methods.q_learning import q_learning
+from bbsd.solver.methods.q_learning.q_learning import METHOD, TooManyJointCells
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 

@@ -14,8 +14,8 @@ from bbsd.expression.node_data import Slot
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from bbsd.evaluation.decisions import Decisions, Layer
-    from bbsd.evaluation.scene import Scene
+    from bbsd.evaluation.tracing.decisions import Decisions, Layer
+    from bbsd.evaluation.tracing.scene import Scene
 
     Column = tuple[Slot, list["Value"]]
     """A name with its robot, and a value before the first step and after each."""

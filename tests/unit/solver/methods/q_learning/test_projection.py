@@ -3,7 +3,7 @@ import pytest
 
 from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.solver.arena import Arena
-from bbsd.solver.methods.projection import projection
+from bbsd.solver.methods.q_learning.projection import projection
 from tests.unit.problems import problem_of
 from tests.unit.solver.problems import guess
 

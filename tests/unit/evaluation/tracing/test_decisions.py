@@ -4,7 +4,7 @@ import pytest
 from bbsd.architecture import given_architecture
 from bbsd.evaluation import trace
 from bbsd.solver.random_agents import random_agents
-from tests.unit.evaluation.test_tracing import WALK
+from tests.unit.evaluation.tracing.test_tracing import WALK
 from tests.unit.problems import RICH, problem_of
 
 

@@ -18,8 +18,8 @@ from bbsd.kernel.streams import fold, name_word, word_of
 from bbsd.solver.champions import no_champions
 from bbsd.solver.methods.method import Method, SearchState, with_champions
 from bbsd.solver.methods.nomination import begun
-from bbsd.solver.methods.projection import projection
-from bbsd.solver.methods.q_backup import learn_backwards
+from bbsd.solver.methods.q_learning.backup import learn_backwards
+from bbsd.solver.methods.q_learning.projection import projection
 from bbsd.solver.space import Designs, uniforms
 from bbsd.stopping import raise_if_stopped
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bbsd.solver.methods.q_backup import learn_backwards
+from bbsd.solver.methods.q_learning.backup import learn_backwards
 
 N_CHOICES = 2
 

@@ -3,7 +3,7 @@ import pytest
 
 from bbsd.architecture import given_architecture
 from bbsd.evaluation import trace
-from bbsd.evaluation.scene import starting_values
+from bbsd.evaluation.tracing.scene import starting_values
 from tests.unit.architecture.designs import meaning_of
 from tests.unit.problems import RICH, problem_of
 

@@ -3,7 +3,7 @@ import numpy as np
 from bbsd.architecture import architecture_of
 from bbsd.compiler import compile_meaning
 from bbsd.evaluation import trace
-from bbsd.evaluation.recording import record_episode
+from bbsd.evaluation.tracing.recording import record_episode
 from tests.unit.architecture.designs import meaning_of, shipped
 
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bbsd.compiler.details import traced_columns
-from bbsd.evaluation.decisions import decisions_of, layers_of
-from bbsd.evaluation.scene import scene, starting_values, values_of
-from bbsd.evaluation.traced import Trace
+from bbsd.evaluation.tracing.decisions import decisions_of, layers_of
+from bbsd.evaluation.tracing.scene import scene, starting_values, values_of
+from bbsd.evaluation.tracing.traced import Trace
 from bbsd.expression.kinds import Kind
 from bbsd.language.meaning.proofs.whole_numbers import whole_values
 from bbsd.language.meaning.situation import definitions_at_the_start
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from bbsd.architecture import Architecture
     from bbsd.compiler import Problem
     from bbsd.compiler.details import Column
-    from bbsd.evaluation.scene import Scene
-    from bbsd.evaluation.traced import Floats, Value
+    from bbsd.evaluation.tracing.scene import Scene
+    from bbsd.evaluation.tracing.traced import Floats, Value
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
 

@@ -1,0 +1,1 @@
+"""Tabular Q-learning over the joint partition, of which the behaviors take over what they can."""
