@@ -14,7 +14,7 @@ from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Findings
-from bbsd.language.meaning.episode.episode import elaborate_episode
+from bbsd.language.meaning.episode.elaborating import elaborate_episode
 from bbsd.language.meaning.episode.perceiving import SensorFault
 from bbsd.language.meaning.naming.definitions import read_definitions
 from bbsd.language.meaning.naming.names import Names

@@ -9,13 +9,9 @@ from bbsd.architecture.needs.naming import before
 from bbsd.expression.graph import Graph, Level
 from bbsd.expression.scope import Named
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.episode.episode import (
-    definitions_at,
-    scalars_defined,
-    slots_read,
-    starting_values,
-    stored_sensors,
-)
+from bbsd.language.meaning.episode.outcome import definitions_at, scalars_defined
+from bbsd.language.meaning.episode.starting import starting_values
+from bbsd.language.meaning.episode.stored import slots_read, stored_sensors
 from bbsd.language.meaning.moments import Moment, Sensed
 from bbsd.language.meaning.naming.names import Names, refilled, scalars_by_slot
 from bbsd.language.meaning.naming.order import dependency_order, names_used_in, uses_among, within_definitions

@@ -8,7 +8,7 @@ from bbsd.expression.graph import Graph, GraphTooLargeError
 from bbsd.expression.scope import Findings, Path, Shared, Unusable
 from bbsd.expression.syntax.mistakes import Mistake, TooManyMistakesError
 from bbsd.language.meaning.contradictions import report_contradictions, with_generations
-from bbsd.language.meaning.episode.episode import elaborate_episode
+from bbsd.language.meaning.episode.elaborating import elaborate_episode
 from bbsd.language.meaning.meaning import Meaning, seed_key
 from bbsd.language.meaning.naming.choices import report_names_of_values
 from bbsd.language.meaning.naming.constants import read_constants

@@ -7,16 +7,10 @@ from typing import TYPE_CHECKING
 from bbsd.expression.scope import Findings
 from bbsd.expression.vocabulary import DRAWS
 from bbsd.language.field_types import Expression
-from bbsd.language.meaning.episode.episode import (
-    decision_at,
-    definitions_at,
-    forms_of,
-    modules_at,
-    scalars_defined,
-    slots_read,
-    starting_values,
-    stored_sensors,
-)
+from bbsd.language.meaning.episode.acting import modules_at
+from bbsd.language.meaning.episode.outcome import definitions_at, scalars_defined
+from bbsd.language.meaning.episode.starting import forms_of, starting_values
+from bbsd.language.meaning.episode.stored import decision_at, slots_read, stored_sensors
 from bbsd.language.meaning.moments import Moment
 from bbsd.language.meaning.naming.definitions import read_definitions
 from bbsd.language.meaning.naming.names import Names

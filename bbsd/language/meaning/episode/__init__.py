@@ -1,1 +1,1 @@
-"""An episode as one graph: how it starts, what happens in a step, what behaviors perceive and a view shows."""
+"""An episode as one graph: its start, the phases of a step, what behaviors perceive and a view shows."""
