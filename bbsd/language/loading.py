@@ -134,14 +134,18 @@ def _examine(data: dict[str, Data], files: Lineage, seed: int, *, is_small: bool
     meant.
     """
     spec, errors = validate(data)
+    found: tuple[LocatedMistake, ...] = ()
     if spec:
         meaning, found = elaborate(spec, seed)
-        return _Examined(meaning, found)
+        if meaning is not None:
+            return _Examined(meaning, found)
     from bbsd.language.meant.understanding import (
         as_meant,
     )  # only mistakes need it, and it takes long to import
 
     reading = as_meant(data, files)
+    if spec and not reading.told:
+        return _Examined(None, found)
     if reading.told:
         spec, errors = validate(reading.data)
     if spec:

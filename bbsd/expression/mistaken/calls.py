@@ -85,8 +85,8 @@ def from_first_to_last(generator: Generator, function: str) -> Instead | None:
     start = render(first)
     moved = re.sub(rf"\[{name}\]", f"[{name} + {start}]", render(generator.element))
     moved = re.sub(rf"(?<![\w\[])(?<!\[){name}\b(?! \+ {re.escape(start)}\])", f"({name} + {start})", moved)
-    new = f"{moved} for {name} in range({length})"
-    return Instead(f"write {function}({new})", Rewriting(new, generator.span, is_certain=False))
+    new = f"{moved} for {name} in range({length})"  # the brackets of the call belong to the generator
+    return Instead(f"write {function}({new})", Rewriting(f"({new})", generator.span, is_certain=False))
 
 
 def of_all_robots(expr: Expr, function: str, scope: Scope) -> Instead | None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
-from bbsd.language.meant.layout import STEP, begins_line, column, correction, lines, stretch
+from bbsd.language.meant.layout import STEP, begins_line, column, correction
 from bbsd.language.validation import named
 from bbsd.text.nodes import Mapping, Scalar, Sequence
 
@@ -49,16 +49,20 @@ def lists_of_named(reading: Reading) -> None:
         value = reading.at(path)
         if not isinstance(value, list) or not value:
             continue
-        keys = [_key_of_item(item) for item in value]
+        keys = [key_of_item(item) for item in value]
         if all(keys) and len(set(keys)) == len(keys):
-            _to_mapping(reading, path, value, [str(key) for key in keys])
+            to_mapping(reading, path, value, [str(key) for key in keys])
         elif path[-1] == "actions" and all(isinstance(item, str) and NAME.match(item) for item in value):
             _actions_without_effects(reading, path, [str(item) for item in value])
+        elif path[-1] in ("state", "world", "constants") and all(
+            isinstance(item, str) and NAME.match(item) for item in value
+        ):
+            _values_without_start(reading, path, [str(item) for item in value])
         elif path == ("reward",) and all(isinstance(item, str | int | float) for item in value):
             _terms_without_names(reading, path, value)
 
 
-def _key_of_item(item: Data) -> str | None:
+def key_of_item(item: Data) -> str | None:
     """Return the name of an item: under `name`, or its only key."""
     if not isinstance(item, dict):
         return None
@@ -67,7 +71,8 @@ def _key_of_item(item: Data) -> str | None:
     return next(iter(item)) if len(item) == 1 else None
 
 
-def _to_mapping(reading: Reading, path: Path, items: list[Data], keys: list[str]) -> None:
+def to_mapping(reading: Reading, path: Path, items: list[Data], keys: list[str]) -> None:
+    """Read a list whose items have a name each as a mapping, and tell it."""
     edits = _without_dashes(reading, path, items)
     message = f"{named(path)} is no list: each of its entries is a key, the name followed by a colon"
     reading.tell(
@@ -104,6 +109,20 @@ def _without_dashes(reading: Reading, path: Path, items: list[Data]) -> list[Edi
         else:
             return None
     return edits
+
+
+def _values_without_start(reading: Reading, path: Path, names: list[str]) -> None:
+    node, key, source = reading.node(path), reading.key(path), reading.document(path).source
+    edits = None
+    if isinstance(node, Sequence) and key is not None:
+        indent = " " * (column(source, key.start) + STEP)
+        entries = "".join(f"\n{indent}{name}: 0" for name in names)
+        edits = [source.edit(source.text.index(":", key.end) + 1, node.end, entries)]
+    what = "value" if path == ("constants",) else "value at the start"
+    message = f"{named(path)} is no list: each name has its {what}"
+    written = correction(reading.document(path), edits, is_certain=False)
+    reading.tell(path, "BB022", message, f"write {names[0]}: 0, or what it is", written, WHOLE)
+    reading.replace(path, dict.fromkeys(names, 0))
 
 
 def _actions_without_effects(reading: Reading, path: Path, names: list[str]) -> None:
@@ -168,47 +187,6 @@ def single_reward(reading: Reading) -> None:
         path, "BB022", message, f"write a name before it: term: {text}", correction(document, edits), WHOLE
     )
     reading.replace(path, {"term": value}, [(("term",), ())])
-
-
-def mapping_of_rules(reading: Reading) -> None:
-    """Read `rules` that are one mapping of `when`, `do` and `otherwise` as a list of rules."""
-    for name in [*reading.mapping(("behaviors",))]:
-        path: Path = ("behaviors", name, "rules")
-        value = reading.at(path)
-        if not isinstance(value, dict) or not value or not set(value) <= {"when", "do", "otherwise"}:
-            continue
-        rule = {key: item for key, item in value.items() if key != "otherwise"}
-        items: list[Data] = [
-            part for part in (rule, {k: v for k, v in value.items() if k == "otherwise"}) if part
-        ]
-        edits = _with_dashes(reading, path, value)
-        message = "rules must be a list of rules, not a mapping: each rule begins with a dash"
-        advice = "write - when: ..., and below it do: ..."
-        written = correction(reading.document(path), edits, below=reading.key(path))
-        reading.tell(path, "BB022", message, advice, written)
-        parts: list[tuple[Path, Path]] = [
-            ((at, key), (key,)) for at, item in enumerate(items) if isinstance(item, dict) for key in item
-        ]
-        reading.replace(path, items, parts)
-
-
-def _with_dashes(reading: Reading, path: Path, value: dict[str, Data]) -> list[Edit] | None:
-    source = reading.document(path).source
-    edits: list[Edit] = []
-    began = False
-    for key in value:
-        own = stretch(reading, (*path, key))
-        key_node = reading.key((*path, key))
-        if own is None or key_node is None:
-            return None
-        for offset, line in lines(source, *own):
-            if not line.strip():
-                continue
-            is_first = offset == own[0] and (key == "otherwise" or not began)
-            at = key_node.start if is_first else offset
-            edits.append(source.edit(at, at, "- " if is_first else "  "))
-        began = True
-    return edits
 
 
 def unordered_structure(reading: Reading) -> None:

@@ -82,9 +82,10 @@ class Reading:
         advice: str = "",
         correction: Rewriting | Correction | None = None,
         span: Span = KEY,
+        seen_at: tuple[Path, ...] = (),
     ) -> None:
-        """Tell a mistake at a path of the data."""
-        self.told.append((self.origin(path), Mistake(code, message, span, advice, correction)))
+        """Tell a mistake at a path of the data; `seen_at` are paths of what it speaks of."""
+        self.told.append((self.origin(path), Mistake(code, message, span, advice, correction, seen_at)))
 
     def set(self, path: Path, value: Data) -> None:
         """Put a value at a path, whose parent is there."""

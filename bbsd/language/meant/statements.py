@@ -93,7 +93,7 @@ def conditions_as_expressions(reading: Reading) -> None:
             text = reading.at(path)
             if not isinstance(text, str):
                 continue
-            cells = _cells(text, _inputs(reading, name))
+            cells = cells_asked(text, inputs_of(reading, name))
             message = "when is no expression but a mapping: for each input its cell"
             example = (
                 "{" + ", ".join(f"{key}: {cell}" for key, cell in (cells or {"input": "cell"}).items()) + "}"
@@ -107,7 +107,7 @@ def conditions_as_expressions(reading: Reading) -> None:
                 reading.set(path[:-1], {"otherwise": "open"})
 
 
-def _inputs(reading: Reading, behavior: str) -> dict[str, Data]:
+def inputs_of(reading: Reading, behavior: str) -> dict[str, Data]:
     """Return what a behavior's inputs are cut from, by their names."""
     inputs = reading.at(("behaviors", behavior, "inputs"))
     if isinstance(inputs, list):
@@ -116,7 +116,7 @@ def _inputs(reading: Reading, behavior: str) -> dict[str, Data]:
     return dict(inputs) if isinstance(inputs, dict) else {}
 
 
-def _cells(text: str, inputs: dict[str, Data]) -> dict[str, str] | None:
+def cells_asked(text: str, inputs: dict[str, Data]) -> dict[str, str] | None:
     """Return the cells that a condition asks for, by input; None where it asks for something else."""
     try:
         tree = parse(re.sub(r"(?<![<>=!])=(?!=)", "==", text).replace("&&", " and "))

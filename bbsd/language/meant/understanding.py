@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bbsd.language.meant.actions import effects_as_texts
+from bbsd.language.meant.cells import (
+    cells_as_lists,
+    conditions_as_inputs,
+    otherwise_by_another_name,
+    ranges_as_conditions,
+)
 from bbsd.language.meant.depth import not_indented, too_deep
 from bbsd.language.meant.forms import (
     lists_of_named,
-    mapping_of_rules,
     nameless_actions,
     single_reward,
     unordered_structure,
@@ -15,6 +21,7 @@ from bbsd.language.meant.forms import (
 from bbsd.language.meant.keys import other_names, without_place, wrong_block
 from bbsd.language.meant.names import keys_of_dynamics, names
 from bbsd.language.meant.reading import Reading
+from bbsd.language.meant.rules import decisions, mapping_of_rules, parts_of_rules
 from bbsd.language.meant.statements import cells_as_texts, conditions_as_expressions, if_statements
 from bbsd.language.meant.values import (
     blocks_of_costs,
@@ -35,11 +42,18 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     other_names,
     wrong_block,
     lists_of_named,
+    cells_as_lists,
     without_place,
     single_reward,
     mapping_of_rules,
     unordered_structure,
     nameless_actions,
+    effects_as_texts,
+    parts_of_rules,
+    decisions,
+    otherwise_by_another_name,
+    ranges_as_conditions,
+    conditions_as_inputs,
     numbers_of_robots,
     blocks_of_costs,
     values_at_the_start,

@@ -141,7 +141,10 @@ def test_no_data_are_more_than_wrong(place: tuple[str, ...], value: object) -> N
             "behaviors: {stop: {rules: [{otherwise: 3}]}}",
             "otherwise must be an action, no action or open, not 3",
         ),
-        ("behaviors: {stop: {actions: {halt: 3}}}", "halt must be a mapping, not 3"),
+        (
+            "behaviors: {stop: {actions: {halt: 3}}}",
+            "an action says which state it sets, and to what: halt does not",
+        ),
         ("constants: {a: [1, [2, {b: 3}]]}", "item 2.2 of a must be an expression, not a mapping"),
         ("environment: {ends: .nan}", "ends must be an expression, not nan"),
         ("environment: {step: 3}", 'unexpected key "step"; did you mean "steps"?'),
