@@ -8,7 +8,7 @@ from collections import Counter
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
-from fuzzing.faults.commands import KILLED, METHODS, command, design, difference, written
+from fuzzing.faults.commands import KILLED, METHODS, command, design, difference, put_in_place, written
 from fuzzing.faults.system import FAULTS, System
 from fuzzing.faults.worker import ForkedWorker
 
@@ -82,14 +82,12 @@ class Trial:
     def _begin(self, system: System | None) -> None:
         """Prepare a process of a command: its worker, then what disturbs it and not the worker."""
         from bbsd.runs.storage import records
-        from bbsd.runs.workers import remote
 
         if self.case.jobs > 1:
             ForkedWorker().install()
         if system is None:
             return
-        for module in (records, remote):
-            vars(module)["INTERVAL"] = self.case.interval
+        put_in_place(records, "INTERVAL", self.case.interval)
         system.install()
 
     def broken(self, fault: Fault, number: int) -> str:

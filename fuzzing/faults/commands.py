@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from types import ModuleType
 
 SPEC = """bbsd: 1
 name: guess
@@ -169,6 +170,14 @@ def prepare(folder: Path) -> Path:
     gc.collect()
     gc.freeze()  # a collection in a child would copy all pages
     return spec
+
+
+def put_in_place(home: ModuleType, name: str, value: object) -> None:
+    """Give a name of a module another value, there and in each module of bbsd that has imported it by this name."""
+    before = vars(home)[name]
+    for module in list(sys.modules.values()):
+        if module.__name__.startswith("bbsd.") and vars(module).get(name) is before:
+            vars(module)[name] = value
 
 
 def _threads() -> int:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.engines.engine import WorkerLost
 from bbsd.engines.units import Result, do
+from fuzzing.faults.commands import put_in_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -41,10 +42,8 @@ class ForkedWorker:
     def install(self) -> None:
         """Take the place of the processes that this one would start to do runs."""
         from bbsd.engines import local
-        from bbsd.runs import workers
 
-        for module in (local, workers):  # whoever resumes asks the second one, which has its own name for it
-            vars(module)["processes_engine"] = self._engine
+        put_in_place(local, "processes_engine", self._engine)
 
     @contextmanager
     def _engine(self, count: int, _imports: Sequence[str]) -> Iterator[ForkedWorker]:
