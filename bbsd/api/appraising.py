@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 from bbsd.api.compiling import located_reward_errors
 from bbsd.api.given.arguments import Assignments, checked, whole
 from bbsd.api.given.environments import opened_environment, problem_of
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from, require_own_world
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, loaded_from
 from bbsd.architecture import given_architecture
-from bbsd.compiler import compile_meaning
 from bbsd.compiler.problem import DEFAULT_LANES
 from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.evaluation import evaluation_key
@@ -35,6 +34,13 @@ def worth(
     jobs: int = 1,
     set: Assignments = (),
     progress: Callable[[int, int], None] | None = None,
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
+    by_table: bool = True,
+    note: Callable[[str], object] | None = None,
 ) -> Worth:
     """Say what the behaviors, layers and rules of a design are worth, and what stands out.
 
@@ -48,15 +54,28 @@ def worth(
         jobs: Threads to use; affects only the speed.
         set: Values that replace those of the spec.
         progress: Called with the numbers of parts done and of all.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
+        by_table: Step the environment by its table of transitions, if it has one (`P`, as Taxi), and real steps agree
+            with it: hundreds of times as fast. What is drawn is drawn from the keys of episodes then.
+        note: Called with a sentence on that, if it has one.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         TooLongToWatch: an episode has too many steps to record who is excited.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     loaded = loaded_from(spec, seed, set)
-    require_own_world(loaded)
-    problem = compile_meaning(loaded.meaning, lanes=lanes, jobs=jobs)
+    opened = opened_environment(
+        loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
+    )
+    problem = problem_of(loaded, opened, lanes=lanes, jobs=jobs)
     generation = loaded.spec.design.coevolution.generations
     design = given_architecture(problem)
     with located_reward_errors(loaded):

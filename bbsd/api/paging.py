@@ -12,26 +12,28 @@ from bbsd.api.comparing import compare
 from bbsd.api.evaluating import evaluate
 from bbsd.api.explaining import explain
 from bbsd.api.given.arguments import Assignments, checked
+from bbsd.api.given.environments import opened_environment, problem_of
 from bbsd.api.given.sources import is_path, name_of, path_of, run_of
-from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, loaded_from, require_own_world
+from bbsd.api.specs import EPISODES_OF_DESIGN, AnySpec, load, loaded_from
+from bbsd.api.tracing import traced
 from bbsd.architecture import given_architecture
-from bbsd.compiler import compile_meaning
-from bbsd.evaluation import chosen_episode, trace
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
+from bbsd.evaluation import chosen_episode
 from bbsd.evaluation.choosing import RANKS
 from bbsd.evaluation.faults import ALL, read_faults
 from bbsd.evaluation.situations import TooLongToWatch
-from bbsd.evaluation.streams import episode_key
 from bbsd.runs.storage.finished import RUN_FILE
 from bbsd.runs.storage.folder import Folder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
 
     from bbsd.architecture import Architecture
-    from bbsd.compiler import Problem
+    from bbsd.environments.importing.modules import Announce
+    from bbsd.environments.opening import Opened
     from bbsd.evaluation import Evaluation, Interval, Rank, Trace
     from bbsd.evaluation.spread import EachEpisode
     from bbsd.explanation import Explanation
@@ -111,6 +113,13 @@ def page(
     faults: Sequence[str] = (),
     set: Assignments = (),
     progress: Progress | None = None,
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
+    by_table: bool = True,
+    note: Callable[[str], object] | None = None,
 ) -> Page:
     """Gather what a page on a design shows; `bbsd.report.page.page_text` makes the page of it.
 
@@ -122,21 +131,45 @@ def page(
         faults: Texts such as "robot=1:dead", as in `bbsd.faults`; every behavior silent is always shown.
         set: Values that replace those of the spec.
         progress: Called from time to time with the part that is done, in percent, and 100.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
+        by_table: Step the environment by its table of transitions, if it has one (`P`, as Taxi), and real steps agree
+            with it: hundreds of times as fast. What is drawn is drawn from the keys of episodes then.
+        note: Called with a sentence on that, if it has one.
 
     Raises:
         SpecError: with all mistakes of the spec, or if a reward is not finite.
         HolesLeft: the spec has holes.
         NoSuchFault: a fault is not understood, or of something that the spec does not have.
         NoDesign: a folder that is no run, or a run without an answer.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     loaded = loaded_from(design, seed, set)
-    require_own_world(loaded)
     wanted = [ALL, *faults]
     read_faults(wanted, loaded.meaning)
-    problem = compile_meaning(loaded.meaning)
+    opened = opened_environment(
+        loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
+    )
+    opening: dict[str, Any] = {
+        "allow_import": allow_import,
+        "import_from": import_from,
+        "environment": environment,
+        "step_limit": step_limit,
+        "announce": announce,
+        "by_table": by_table,
+        "note": note,
+    }
+    problem = problem_of(loaded, opened)
     architecture = given_architecture(problem)
-    generation, few = loaded.spec.design.coevolution.generations, min(max(2, episodes), FEWER_EPISODES)
-    measured = evaluate(loaded, episodes=episodes, seed=seed, keep_each=True, progress=_part(progress, 0, 20))
+    few = min(max(2, episodes), FEWER_EPISODES)
+    measured = evaluate(
+        loaded, episodes=episodes, seed=seed, keep_each=True, progress=_part(progress, 0, 20), **opening
+    )
     earned = cast("EachEpisode", measured.each).returns
     return Page(
         name=_name(design),
@@ -145,13 +178,15 @@ def page(
         explanation=explain(loaded),
         evaluation=measured,
         returns=earned,
-        replays=_replays(problem, architecture, earned, seed, generation),
-        run=_run(design, seed),
-        worth=_worth(loaded, seed, few, _part(progress, 20, 70)),
-        faults=degradations(loaded, wanted, seed=seed, episodes=few, progress=_part(progress, 70, 100)),
+        replays=_replays(loaded, opened, earned, seed),
+        run=_run(design, seed, opening),
+        worth=_worth(loaded, seed, few, _part(progress, 20, 70), opening),
+        faults=degradations(
+            loaded, wanted, seed=seed, episodes=few, progress=_part(progress, 70, 100), **opening
+        ),
         comparison=None
         if other is None
-        else compare(loaded, loaded_from(other, seed, set), episodes=max(2, episodes), seed=seed),
+        else compare(loaded, loaded_from(other, seed, set), episodes=max(2, episodes), seed=seed, **opening),
         other="" if other is None else _name(other),
         seed=seed,
         overrides=loaded.overrides,
@@ -172,31 +207,26 @@ def _name(design: AnySpec) -> str:
 
 
 def _replays(
-    problem: Problem,
-    architecture: Architecture,
-    returns: NDArray[np.float64],
-    seed: int,
-    generation: int,
+    loaded: Loaded, opened: Opened | None, returns: NDArray[np.float64], seed: int
 ) -> tuple[Replay, ...]:
     """Run the worst, the median and the best episode as plain Python, and record everything."""
-    plain = compile_meaning(problem.meaning, compiled=False)
-    replays = []
-    for rank in RANKS:
-        number = chosen_episode(returns, rank)
-        key = episode_key(seed, number)
-        traced = trace(plain, architecture, key, generation)
-        replays.append(Replay(rank, number, float(returns[number]), traced))
-    return tuple(replays)
+    numbers = {rank: chosen_episode(returns, rank) for rank in RANKS}
+    return tuple(
+        Replay(rank, number, float(returns[number]), traced(loaded, opened, number, seed))
+        for rank, number in numbers.items()
+    )
 
 
-def _worth(loaded: Loaded, seed: int, episodes: int, progress: Progress | None) -> Worth | None:
+def _worth(
+    loaded: Loaded, seed: int, episodes: int, progress: Progress | None, opening: Mapping[str, Any]
+) -> Worth | None:
     try:
-        return worth(loaded, episodes=episodes, seed=seed, progress=progress)
+        return worth(loaded, episodes=episodes, seed=seed, progress=progress, **opening)
     except TooLongToWatch:
         return None
 
 
-def _run(design: AnySpec, seed: int) -> Run | None:
+def _run(design: AnySpec, seed: int, opening: Mapping[str, Any]) -> Run | None:
     """Return the run that a folder holds."""
     path = run_of(design)
     if path is None or not (path / RUN_FILE).is_file() or (is_path(design) and not path_of(design).is_dir()):
@@ -204,5 +234,5 @@ def _run(design: AnySpec, seed: int) -> Run | None:
     folder = Folder(path)
     made = folder.design()
     spec = load(made.spec, seed=made.seed, set=made.overrides)
-    beside = evaluate(spec, seed=seed, fill="random", agents=RANDOM_AGENTS)
+    beside = evaluate(spec, seed=seed, fill="random", agents=RANDOM_AGENTS, **opening)
     return Run(folder.read_run_file(), folder.lines(), spec, beside.returns)

@@ -5,14 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.api.given.arguments import Assignments, checked, require_none
-from bbsd.api.specs import AnySpec, loaded_from, require_own_world
+from bbsd.api.specs import AnySpec, loaded_from
 from bbsd.architecture import architecture_of
+from bbsd.environments.lanes.time_limit import DEFAULT_LIMIT
 from bbsd.errors import UsageError
 from bbsd.explanation.why import Answer, answer_of, described_situation, situation_in
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
+    from typing import Any
 
+    from bbsd.environments.importing.modules import Announce
     from bbsd.evaluation import Rank
     from bbsd.explanation.why.described import Given
 
@@ -38,6 +42,13 @@ def why(
     wanted: Sequence[str] = (),
     seed: int = 0,
     set: Assignments = (),
+    allow_import: Sequence[str] = (),
+    import_from: Sequence[str | Path] = (),
+    environment: Callable[..., Any] | None = None,
+    step_limit: float = DEFAULT_LIMIT,
+    announce: Announce | None = None,
+    by_table: bool = True,
+    note: Callable[[str], object] | None = None,
 ) -> Answer:
     """Return why a robot did what it did: what each layer perceived and wanted, and which one controlled.
 
@@ -51,6 +62,15 @@ def why(
         wanted: Actions or behaviors; for each, what would have had to be different for it to control.
         seed: As in `evaluate`.
         set: Values that replace those of the spec.
+        allow_import: Modules that the spec's environment may import, with all below them, besides those of the user's
+            configuration file. A spec whose world is its own imports nothing.
+        import_from: Folders in which modules are looked for, after the installed environment.
+        environment: A class in hand that is the spec's environment; nothing is imported for it.
+        step_limit: Seconds that a step or a reset of the environment may take.
+        announce: Called with each module and its file before it is imported.
+        by_table: Step the environment by its table of transitions, if it has one (`P`, as Taxi), and real steps agree
+            with it: hundreds of times as fast. What is drawn is drawn from the keys of episodes then.
+        note: Called with a sentence on that, if it has one.
 
     Raises:
         SpecError: with all mistakes of the spec.
@@ -60,6 +80,8 @@ def why(
         BadSituation: a value is unknown, of a wrong form, or missing.
         NoSuchAction: a name stands for nothing.
         AsItWas: what is unwanted did not control, or what is wanted did.
+        ImportNotAllowed: the spec's environment needs a module that was not allowed.
+        EnvironmentFailed, EnvironmentHangs, ActionRefused: what the environment did wrong, or was told wrong.
     """
     loaded = loaded_from(spec, seed, set)
     if (step is None) is (not at):
@@ -73,11 +95,14 @@ def why(
         situation = described_situation(loaded.meaning, at or {}, robot, generation)
     else:
         # A described situation needs no compiler.
-        from bbsd.api.tracing import episode_number, trace
+        from bbsd.api.given.environments import opened_environment
+        from bbsd.api.tracing import episode_number, traced
 
-        require_own_world(loaded)
-        number = episode_number(loaded, episode, seed=seed)
-        situation = situation_in(trace(loaded, seed=seed, episode=number), step, robot)
+        opened = opened_environment(
+            loaded, allow_import, import_from, environment, step_limit, announce, by_table, note
+        )
+        number = episode_number(loaded, episode, seed=seed, opened=opened)
+        situation = situation_in(traced(loaded, opened, number, seed), step, robot)
     return answer_of(
         loaded.meaning,
         architecture,

@@ -85,6 +85,11 @@ def trace(
     number = episode_number(
         loaded, episode, episodes=episodes or EPISODES_OF_DESIGN, seed=seed, opened=opened
     )
+    return traced(loaded, opened, number, seed)
+
+
+def traced(loaded: Loaded, opened: Opened | None, number: int, seed: int) -> Trace:
+    """Run an episode of `evaluate` by its number, as plain Python, and return all values of each step."""
     problem = problem_of(loaded, opened, compiled=False)
     key = episode_key(seed, number)
     return trace_episode(

@@ -15,8 +15,8 @@ class EnvironmentNotImported(UsageError):
     """Episodes of an environment that is stepped in Python, asked of what imports nothing for a spec."""
 
     advice = (
-        "only the commands design, evaluate and spaces import what a spec names, each with --allow-import NAME; "
-        "in Python: design, evaluate, trace and price with allow_import"
+        "commands that run episodes import what a spec names with --allow-import NAME; "
+        "in Python with allow_import=[NAME]"
     )
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bbsd.compiler import Problem
     from bbsd.compiler.steps import Steps
     from bbsd.environments.stepping import Stepper
+    from bbsd.environments.tables import TransitionTable
     from bbsd.language.meaning import Meaning
 
 VISITS = name_word("visits of a design")
@@ -38,9 +39,11 @@ def visits_of(
     seed: int,
     episodes: int,
     stepper: Callable[[], Stepper] | None = None,
+    table: TransitionTable | None = None,
 ) -> Visits:
     """Count the visits of a design, in plain Python where that takes less time than to compile its kernel."""
-    problem = compile_meaning(meaning, compiled=not _is_soon_done(meaning, episodes), stepper=stepper)
+    compiled = not _is_soon_done(meaning, episodes)
+    problem = compile_meaning(meaning, compiled=compiled, stepper=stepper, table=table)
     return count_visits(
         problem, architecture, visits_key(seed), episodes, meaning.spec.design.coevolution.generations
     )

@@ -116,12 +116,6 @@ COMMANDS_THAT_READ = [
     ("fmt", 0),
     ("tidy", 0),
 ]
-COMMANDS_OF_EPISODES = [
-    ("worth",),
-    ("why", "--step", "1"),
-    ("report", "-o", "page.html"),
-    ("explain", "--worth"),
-]
 
 
 @pytest.mark.parametrize(("command", "code"), COMMANDS_THAT_READ)
@@ -129,38 +123,38 @@ def test_1_what_only_reads_a_spec_imports_nothing(planted, command, code):
     planted.refuses(command, planted.spec(), code=code)
 
 
-@pytest.mark.parametrize("words", COMMANDS_OF_EPISODES, ids=lambda words: " ".join(words[:2]))
-def test_2_commands_that_do_not_import_say_so(planted, words):
-    command, *options = words
-    err = planted.refuses(command, planted.spec(), *options)
-    assert "only the commands design, evaluate and spaces import" in err
-    assert "Traceback" not in err
+COMMANDS_OF_EPISODES = [
+    ("evaluate",),
+    ("evaluate", "--fault", "all"),
+    ("spaces",),
+    ("design",),
+    ("design", "--dry-run"),
+    ("worth",),
+    ("why", "--step", "1"),
+    ("report", "-o", "page.html"),
+    ("explain", "--worth"),
+    ("explain", "--episodes", "5"),
+]
 
 
 @pytest.mark.parametrize("words", COMMANDS_OF_EPISODES, ids=lambda words: " ".join(words[:2]))
-def test_2_not_even_what_the_configuration_allows(planted, monkeypatch, words):
-    path = planted.folder / "own.yaml"
-    path.write_text(f"allow_import: [{planted.module}]\n", encoding="utf-8")
-    path.chmod(0o600)
-    monkeypatch.setattr("bbsd.api.given.environments.configuration_file", lambda: path)
-    monkeypatch.setattr("bbsd.environments.for_spec.closed_folders", lambda _lineage: ())
-    command, *options = words
-    err = planted.refuses(command, planted.spec(), *options)
-    assert "only the commands design, evaluate and spaces import" in err
-
-
-def test_3_nor_does_a_comparison(planted):
-    planted.refuses("compare", planted.spec(), planted.spec(name="other.yaml"))
-
-
-@pytest.mark.parametrize(
-    "words",
-    [("evaluate",), ("evaluate", "--fault", "all"), ("spaces",), ("design",), ("design", "--dry-run")],
-)
-def test_4_without_the_option_the_commands_that_may_import_do_not(planted, words):
+def test_2_without_the_option_no_command_imports(planted, words):
     command, *options = words
     err = planted.refuses(command, planted.spec(given=command != "design"), *options)
     assert f"--allow-import {planted.module}" in err
+    assert "Traceback" not in err
+
+
+def test_3_nor_does_a_comparison(planted):
+    err = planted.refuses("compare", planted.spec(), planted.spec(name="other.yaml"))
+    assert f"--allow-import {planted.module}" in err
+
+
+@pytest.mark.parametrize("words", COMMANDS_OF_EPISODES, ids=lambda words: " ".join(words[:2]))
+def test_4_consent_for_another_module_is_none(planted, words):
+    command, *options = words
+    spec = planted.spec(given=command != "design")
+    planted.refuses(command, spec, *options, "--allow-import", "gymnasium", "--import-from", planted.folder)
 
 
 def test_5_a_module_before_the_id_of_gymnasium_must_be_allowed_too(planted):

@@ -10,6 +10,7 @@ from itertools import count
 import pytest
 
 import bbsd as verbs
+from bbsd.expression.node_data import Slot
 from tests.end_to_end.commands import bbsd, process
 
 NUMBERS = count(1)
@@ -145,8 +146,6 @@ def test_a_trace_agrees_with_the_environment_itself(ring, tmp_path):
     traced = verbs.trace(spec, seed=3, episode=5, allow_import=[module], import_from=[tmp_path])
     arena = sys.modules[module].Arena()
     observed, _ = arena.reset(seed=seed_of(episode_key(3, 5)))
-    from bbsd.expression.node_data import Slot
-
     places, earned = traced.values[Slot("place", 0)], traced.values[Slot("earned", 0)]
     assert traced.start[Slot("place", 0)] == observed[0]
     for place, reward, turn in zip(places, earned, traced.values[Slot("turn", 0)], strict=True):
@@ -249,3 +248,51 @@ def test_a_class_in_hand_needs_no_import(ring):
     assert found.mean == 2.0
     shown = verbs.spaces(spec, environment=Arena)
     assert shown.observation == "Box(-inf, inf, (1,), int64)"
+
+
+STAYING = "[{when: {home: true}, do: stay}, {otherwise: no action}]"
+
+
+def given(spec, way="forth"):
+    """The spec with rules, beside it."""
+    text = spec.read_text(encoding="utf-8").replace("  rest:", f"    rules: [{{otherwise: {way}}}]\n  rest:")
+    path = spec.with_name(f"{way}.yaml")
+    path.write_text(
+        text.replace("reward:", f"    rules: {STAYING}\nstructure: [rest, go]\nreward:"),
+        encoding="utf-8",
+    )
+    return path
+
+
+EXPLAINED = {
+    "why": (("why", "{a}", "--episode", "worst", "--step", "3"), "controlled: "),
+    "worth": (("worth", "{a}", "--episodes", "20"), "change of the return"),
+    "compare": (("compare", "{a}", "{b}", "--episodes", "20"), "go: forth becomes back"),
+    "explain": (("explain", "{a}", "--worth", "--episodes", "20"), "2  rest  stay where"),
+    "report": (("report", "{a}", "{b}", "--episodes", "20", "-o", "{folder}/page.html"), "page.html"),
+}
+
+
+@pytest.mark.parametrize("words", EXPLAINED)
+def test_a_design_is_explained_by_its_episodes(ring, tmp_path, words):
+    spec, allowed = ring
+    a, b = given(spec), given(spec, "back")
+    command, shown = EXPLAINED[words]
+    told = [word.format(a=a, b=b, folder=tmp_path) for word in command]
+    code, _, err = bbsd(*told)
+    assert code == 2
+    assert f"--allow-import {allowed[1]}" in err
+    code, out, err = bbsd(*told, *allowed)
+    assert code == 0, err
+    assert shown in out
+
+
+def test_why_tells_what_was_in_the_episode(ring, tmp_path):
+    spec, (_, module, *_) = ring
+    opening = {"allow_import": [module], "import_from": [tmp_path]}
+    path = given(spec)
+    places = verbs.trace(path, episode=2, **opening).values[Slot("place", 0)]
+    for step in (2, 3, 4):
+        answer = verbs.why(path, episode=2, step=step, **opening)
+        assert answer.values["place"] == places[step - 2]
+        assert answer.action == ("stay" if places[step - 2] == 0 else "forth")

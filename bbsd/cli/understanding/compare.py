@@ -6,7 +6,21 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsFormat, AsJson, Jobs, Lanes, Overrides, ResultFormat, Seed, spec_files
+from bbsd.cli.options import (
+    AllowImport,
+    AsFormat,
+    AsJson,
+    ImportFrom,
+    InPython,
+    Jobs,
+    Lanes,
+    Overrides,
+    ResultFormat,
+    Seed,
+    StepLimit,
+    spec_files,
+)
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.output import say, show, show_table
 from bbsd.report.plain import json_text
 from bbsd.report.wording.numbers import column
@@ -39,6 +53,10 @@ def compare(
         ),
     ] = None,
     overrides: Overrides = None,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
     form: AsFormat = ResultFormat.TEXT,
     as_json: AsJson = False,
     lanes: Lanes = 40,
@@ -52,6 +70,7 @@ def compare(
     first, *others = designs
     if not others:
         raise typer.BadParameter("give two designs at least, A and B")
+    opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     comparisons = [
         bbsd.compare(
             first,
@@ -61,6 +80,7 @@ def compare(
             lanes=lanes,
             jobs=jobs,
             set=overrides or (),
+            **opening,
         )
         for other in others
     ]

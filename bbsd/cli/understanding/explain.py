@@ -6,7 +6,8 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson, DesignFile, Overrides, Seed
+from bbsd.cli.options import AllowImport, AsJson, DesignFile, ImportFrom, InPython, Overrides, Seed, StepLimit
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.output import say, show
 from bbsd.errors import escape
 from bbsd.report.plain import json_text
@@ -43,6 +44,10 @@ def explain(
             "--worth", help="Also measure what the design would earn without what seems useless, in episodes."
         ),
     ] = False,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
     form: Annotated[
         ExplanationFormat,
         typer.Option(
@@ -59,7 +64,14 @@ def explain(
     """
     from bbsd.explanation import dot_text, explanation_text, mermaid_text, table_text, tree_text
 
-    explanation = bbsd.explain(spec, seed=seed, episodes=episodes or 0, worth=worth, set=overrides or ())
+    explanation = bbsd.explain(
+        spec,
+        seed=seed,
+        episodes=episodes or 0,
+        worth=worth,
+        set=overrides or (),
+        **stepping(allow_import, import_from, step_limit, in_python=in_python),
+    )
     if explanation.watched is None and (spec / VISITS).is_file():
         say(f"the visits that {escape(str(spec))} has kept are of another design; --episodes N counts anew")
     if as_json or form is ExplanationFormat.JSON:

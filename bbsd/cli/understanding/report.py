@@ -6,7 +6,17 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import DesignFile, Overrides, Seed, spec_files
+from bbsd.cli.options import (
+    AllowImport,
+    DesignFile,
+    ImportFrom,
+    InPython,
+    Overrides,
+    Seed,
+    StepLimit,
+    spec_files,
+)
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.output import error_console, require_writable_file, show
 from bbsd.errors import escape
 from bbsd.runs.storage.lock import write_result_text
@@ -38,6 +48,10 @@ def report(
     ] = None,
     seed: Seed = 0,
     overrides: Overrides = None,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
 ) -> None:
     """Write one page on a design.
 
@@ -47,6 +61,7 @@ def report(
     require_writable_file(output)
     from bbsd.report.progress import episode_listener
 
+    opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     with episode_listener(error_console(), "%") as listener:
         page = bbsd.page(
             design,
@@ -56,6 +71,7 @@ def report(
             faults=faults or (),
             set=overrides or (),
             progress=listener,
+            **opening,
         )
     from bbsd.report.page import page_text
 

@@ -2,6 +2,7 @@
 
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
+from shlex import quote
 from threading import Event
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,6 +11,7 @@ import typer
 from bbsd.cli.options import spec_files
 from bbsd.cli.terminal.interrupts import INTERRUPTED
 from bbsd.cli.terminal.output import has_blocks, output_console, say, show
+from bbsd.errors import escape
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -119,10 +121,16 @@ class _Page:
         if self._watched is None or self._watched.state != "done":
             return
         import bbsd
+        from bbsd.environments.importing.consent import ImportNotAllowed
         from bbsd.report.page import page_text
 
         say("the run is done; its page is being made")
-        self._whole = page_text(bbsd.page(self._run))
+        try:
+            self._whole = page_text(bbsd.page(self._run))
+        except ImportNotAllowed:
+            say("no page is made: it needs the environment, and watching a run imports nothing")
+            say(f"its page is made by: bbsd report {escape(quote(str(self._run)))} --allow-import MODULE")
+            return
         say("the page is there")
 
     def text(self) -> str:

@@ -6,15 +6,20 @@ import typer
 
 import bbsd
 from bbsd.cli.options import (
+    AllowImport,
     AsFormat,
     AsJson,
     DesignFile,
     Episode,
+    ImportFrom,
+    InPython,
     Overrides,
     ResultFormat,
     Seed,
+    StepLimit,
     read_episode,
 )
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.output import show
 from bbsd.errors import SpecError
 from bbsd.report.plain import json_text
@@ -62,6 +67,10 @@ def why(
     ] = None,
     seed: Seed = 0,
     overrides: Overrides = None,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
     form: AsFormat = ResultFormat.TEXT,
     as_json: AsJson = False,
 ) -> None:
@@ -82,6 +91,7 @@ def why(
         wanted=wanted or (),
         seed=seed,
         set=overrides or (),
+        **stepping(allow_import, import_from, step_limit, in_python=in_python),
     )
     show(json_text(answer.to_plain()) if as_json or form is ResultFormat.JSON else answer_text(answer))
 

@@ -6,7 +6,19 @@ from typing import Annotated
 import typer
 
 import bbsd
-from bbsd.cli.options import AsJson, DesignFile, Jobs, Lanes, Overrides, Seed
+from bbsd.cli.options import (
+    AllowImport,
+    AsJson,
+    DesignFile,
+    ImportFrom,
+    InPython,
+    Jobs,
+    Lanes,
+    Overrides,
+    Seed,
+    StepLimit,
+)
+from bbsd.cli.terminal.access import stepping
 from bbsd.cli.terminal.output import show, show_table
 from bbsd.report.plain import json_text
 
@@ -27,6 +39,10 @@ def worth(
     ] = 1000,
     seed: Seed = 0,
     overrides: Overrides = None,
+    allow_import: AllowImport = None,
+    import_from: ImportFrom = None,
+    step_limit: StepLimit = 30.0,
+    in_python: InPython = False,
     form: Annotated[
         WorthFormat,
         typer.Option(
@@ -44,7 +60,15 @@ def worth(
     or a rule is dropped, a behavior is replaced at random, or layers are exchanged; and points out what is selfish,
     harmful or useless.
     """
-    found = bbsd.worth(spec, episodes=episodes, seed=seed, lanes=lanes, jobs=jobs, set=overrides or ())
+    found = bbsd.worth(
+        spec,
+        episodes=episodes,
+        seed=seed,
+        lanes=lanes,
+        jobs=jobs,
+        set=overrides or (),
+        **stepping(allow_import, import_from, step_limit, in_python=in_python),
+    )
     from bbsd.report.worth import order_dot, order_mermaid, worth_plain, worth_table
 
     match WorthFormat.JSON if as_json else form:

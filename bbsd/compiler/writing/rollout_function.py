@@ -18,9 +18,10 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from bbsd.compiler.tables import TableShape
+    from bbsd.expression.scope import Plain
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.episode.episode import Episode
 
@@ -233,12 +234,13 @@ class RolloutFunction:
         return name_text(self.call.names[node.number])
 
     @cached_property
-    def _constant_names(self) -> list[str]:
-        return [
-            "_".join([name, *(str(part) for part in element)])
-            for name, value in self.meaning.constants.values.items()
-            for element in _elements(value)
-        ]
+    def _constant_names(self) -> dict[int, str]:
+        """The names of scalars by their positions; columns of numbers, which stand between, have none."""
+        return {
+            node.index: "_".join([name, *map(str, place)])
+            for name, leaves in self.meaning.constants.leaves.items()
+            for place, node in _elements(leaves)
+        }
 
 
 def _as_read(element: Text, kind: Kind) -> Text:
@@ -251,8 +253,10 @@ def indent(lines: Iterable[str], depth: int) -> list[str]:
     return [f"{'    ' * depth}{line}" for line in lines]
 
 
-def _elements(value: object, index: tuple[int, ...] = ()) -> list[tuple[int, ...]]:
-    """Return the indices of all numbers in a nested tuple."""
-    if isinstance(value, tuple):
-        return [element for at, item in enumerate(value) for element in _elements(item, (*index, at))]
-    return [index]
+def _elements(leaves: Plain, place: tuple[int, ...] = ()) -> Iterator[tuple[tuple[int, ...], Node]]:
+    """Yield all leaves in a nested tuple with their places."""
+    if isinstance(leaves, tuple):
+        for at, item in enumerate(leaves):
+            yield from _elements(item, (*place, at))
+    else:
+        yield place, leaves

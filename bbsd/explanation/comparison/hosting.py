@@ -93,10 +93,10 @@ def hosted(host: Design, guest: Design, guest_name: str) -> Hosted:
     """
     same = same_behaviors(host, guest)
     foreign = [name for name in guest.order if name not in same]
-    meaning, problem = host.loaded.meaning, host.problem
+    problem = host.problem
     if foreign:
-        meaning = _with_behaviors(host, guest, foreign)
-        problem = problem.with_meaning(meaning)
+        problem = problem.with_meaning(_with_behaviors(host, guest, foreign))
+    meaning = problem.meaning
     n_own = len(host.modules)
     tables = dict(zip(guest.problem.names, guest.architecture.tables, strict=True))
     index = {name: number for number, name in enumerate(host.problem.names) if name in same}

@@ -96,7 +96,7 @@ class Corridor:
 
     def reset(self, lanes, keys, outside):
         for lane in lanes:
-            self.places[lane] = np.array(self.drawn(integers, keys[lane], 0.0, 9.0)[0])
+            self.places[lane] = np.array(self.drawn(integers, int(keys[lane]), 0.0, 9.0)[0])
             outside[:, lane] = [*self.places[lane], 0.0, 0.0, 0.0]
         self.over -= set(lanes)
 

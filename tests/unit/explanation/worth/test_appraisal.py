@@ -1,3 +1,4 @@
+from dataclasses import fields, replace
 from itertools import pairwise
 
 import numpy as np
@@ -7,6 +8,7 @@ from bbsd.architecture import Architecture
 from bbsd.evaluation import agents_of, evaluation_key, evaluation_keys, interval, returns_of, trace
 from bbsd.explanation.worth import Appraisal
 from tests.unit.architecture.designs import random_architecture
+from tests.unit.compiler.twins import CORRIDOR_INSIDE, CORRIDOR_OUTSIDE, Corridor
 from tests.unit.explanation.worth.planted import appraisal_of, needed, planted
 from tests.unit.problems import RICH, problem_of
 
@@ -144,3 +146,17 @@ def test_a_part_without_which_rewards_are_not_finite():
     assert not [
         finding for finding in worth.findings if "work" in finding.subjects and finding.kind == "idle"
     ]
+
+
+def test_a_design_in_a_world_stepped_in_python_is_worth_what_it_is_in_the_same_world_in_the_language():
+    inside = problem_of(CORRIDOR_INSIDE, lanes=4)
+    stepped = replace(problem_of(CORRIDOR_OUTSIDE, lanes=4), stepper=Corridor)
+    one, other = (
+        Appraisal(problem, random_architecture(problem.meaning, 5), evaluation_key(0), 12, 1).worth()
+        for problem in (inside, stepped)
+    )
+    assert one.returns.sd > 0
+    for field in fields(one):  # state that only one of them has makes robots alike
+        if field.name not in ("alike", "findings"):
+            assert getattr(one, field.name) == getattr(other, field.name), field.name
+    assert [pair.same_action for pair in one.alike] == [pair.same_action for pair in other.alike]
