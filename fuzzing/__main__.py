@@ -16,7 +16,7 @@ from multiprocessing import Pipe, Process
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bbsd.cli.app import GC_THRESHOLD
+from bbsd.cli import GC_THRESHOLD
 from fuzzing.damage import damaged
 from fuzzing.heavy_specs import heavy_spec
 from fuzzing.trial import Watch, peak_megabytes, trial

@@ -12,20 +12,15 @@ from bbsd.architecture.spec_changes import MOST_WORDS, NO_WORDS, spec_changes
 from bbsd.errors import Diagnosis
 from bbsd.language.meaning.structure import OPEN_LAYER
 from bbsd.language.meaning.tables.table import OPEN_CELL
-from bbsd.text import (
-    TooLargeError,
-    differences,
-    read_back,
-    replace_blocks,
-    with_change,
-    without_relative_modeline,
-    write,
-)
+from bbsd.text.writing.modeline import without_relative_modeline
+from bbsd.text.writing.patch import TooLargeError, differences, read_back, replace_blocks, with_change
+from bbsd.text.writing.writer import write
 
 if TYPE_CHECKING:
     from bbsd.language.loading import Loaded
     from bbsd.language.meaning import Meaning
-    from bbsd.text import Data, DataPath, Deletion
+    from bbsd.text import Data, DataPath
+    from bbsd.text.writing.patch import Deletion
 
 WORD_LIMITS = (MOST_WORDS, MOST_WORDS // 10, NO_WORDS)
 """Words of a behavior's rules, one limit after another until the file is not too large; in the end none, but tables."""

@@ -16,7 +16,8 @@ from bbsd.architecture.tidy import where_decisions_matter
 from bbsd.errors import UsageError
 from bbsd.language.loading import load
 from bbsd.language.models import NO_ACTION_TEXT, Otherwise
-from bbsd.text import DELETE, Source, replace_blocks
+from bbsd.text import Source
+from bbsd.text.writing.patch import DELETE, replace_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,7 +30,8 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
     from bbsd.language.models import Behavior, Rule
-    from bbsd.text import Data, DataPath, Deletion
+    from bbsd.text import Data, DataPath
+    from bbsd.text.writing.patch import Deletion
 
 
 class TooLargeToProve(UsageError):

@@ -8,7 +8,7 @@ from bbsd.architecture.drawn_constants import drawn_constants
 from bbsd.architecture.rules import rules_of
 from bbsd.language.meaning.tables.symbols import filled_text, text_of_table
 from bbsd.language.models import OPEN
-from bbsd.text import DELETE
+from bbsd.text.writing.patch import DELETE
 
 if TYPE_CHECKING:
     import numpy as np
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from bbsd.language.meaning import Meaning
     from bbsd.language.meaning.behaviors import Module
     from bbsd.language.models import Behavior
-    from bbsd.text import Data, DataPath, Deletion
+    from bbsd.text import Data, DataPath
+    from bbsd.text.writing.patch import Deletion
 
 MOST_WORDS = 3000
 """Words of a behavior's rules: some five hundred rules, a tenth of a second to read; nobody reads more."""

@@ -1,7 +1,5 @@
 """The list of commands, and what happens to errors that a user can correct."""
 
-import atexit
-import gc
 import sys
 from typing import Annotated
 
@@ -14,8 +12,6 @@ from bbsd.cli.terminal.output import say
 from bbsd.cli.terminal.streams import steady_streams
 from bbsd.version import __version__
 
-GC_THRESHOLD = 100_000
-"""New objects between two garbage collections; a command's objects live as long as it does, or die at once."""
 NO = 1
 """The exit code for the answer no, and for a result that could not be written."""
 
@@ -103,10 +99,8 @@ def _options(
     """Design behavior-based agents from a spec: what the spec gives is kept, what it leaves open is designed."""
 
 
-def main() -> None:
+def run() -> None:
     """Run the command line; exit with 0, 1 for the answer no, 2 for a mistake of the user, 130 if interrupted."""
-    gc.set_threshold(GC_THRESHOLD)
-    atexit.register(gc.freeze)  # Python's last collection would take a tenth of a design's time
     with steady_streams() as output:
         code = _run()
         output.flush()

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -20,8 +19,7 @@ class Lines(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Edit:
+class Edit(NamedTuple):
     """A text for a stretch of a file; lines and columns count from 1, in characters, and the end is exclusive.
 
     An edit that inserts ends where it begins. `text` may have line breaks, as may the stretch.
@@ -34,8 +32,7 @@ class Edit:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Correction:
+class Correction(NamedTuple):
     """The edits that correct a mistake, all in the file of its place; none of them overlap.
 
     It is certain where there is one reading of what was meant; only then may a program write it.
@@ -47,8 +44,7 @@ class Correction:
     """The line of the key whose block is changed, which is shown above it; 0 where none is."""
 
 
-@dataclass(frozen=True, slots=True)
-class CorrectedLine:
+class CorrectedLine(NamedTuple):
     """A line as it should be, and its number where no line of the text before it is shown."""
 
     text: str

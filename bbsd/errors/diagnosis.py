@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.errors.catalog import severity_of
 from bbsd.errors.correction import CorrectedLine, corrected_lines
@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from bbsd.errors.correction import Correction, Lines
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Place:
+class Place(NamedTuple):
     """A stretch of one line of a file; line and column count from 1, columns and length in characters."""
 
     file: str

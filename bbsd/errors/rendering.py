@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from bbsd.errors.kinds.kind import Severity
@@ -137,4 +136,4 @@ def _json_object(diagnosis: Diagnosis) -> dict[str, Any]:
 
 
 def _correction(correction: Correction) -> dict[str, Any]:
-    return {"certain": correction.is_certain, "edits": [asdict(edit) for edit in correction.edits]}
+    return {"certain": correction.is_certain, "edits": [edit._asdict() for edit in correction.edits]}

@@ -207,11 +207,13 @@ class Graph:
         self, operation: str, operands: tuple[Node, ...], data: NodeData, kind: Kind, level: Level
     ) -> Node:
         """Return the node of an operation, operands and data: the existing one, or a new one."""
-        key = (operation, kind, data, *(node.number for node in operands))
+        key = (operation, kind, data, *[node.number for node in operands])
         self.spend(1)
-        if key not in self.nodes:
-            self.nodes[key] = Node(self.first + len(self.nodes), operation, operands, data, kind, level)
-        return self.nodes[key]
+        node = self.nodes.get(key)
+        if node is None:
+            node = Node(self.first + len(self.nodes), operation, operands, data, kind, level)
+            self.nodes[key] = node
+        return node
 
 
 def _exact_reciprocal(divisor: float) -> float | None:
@@ -251,9 +253,10 @@ def needed(outputs: Iterable[Node]) -> list[Node]:
     waiting = list(outputs)
     while waiting:
         node = waiting.pop()
-        if node.number not in nodes:
-            nodes[node.number] = node
-            waiting.extend(node.operands)
+        number = node.number
+        if number not in nodes:
+            nodes[number] = node
+            waiting += node.operands
     return [nodes[number] for number in sorted(nodes)]
 
 

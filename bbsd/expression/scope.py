@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.graph import Graph, Node, value_of
 from bbsd.expression.kinds import Kind
@@ -69,29 +69,25 @@ Plain = Node | tuple["Plain", ...]
 """A number or a truth, or a list of them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Shared:
+class Shared(NamedTuple):
     """A name with one value for all robots: a constant, a value of the world, the step."""
 
     value: Value
 
 
-@dataclass(frozen=True, slots=True)
-class Deferred:
+class Deferred(NamedTuple):
     """A shared name whose value is elaborated when it is first used."""
 
     value: Callable[[], Value]
 
 
-@dataclass(frozen=True, slots=True)
-class PerRobot:
+class PerRobot(NamedTuple):
     """A name with a value for each robot: state and sensors."""
 
     value: Callable[[int], Value]
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(NamedTuple):
     """A name that stands for an expression, evaluated where it is used."""
 
     parameters: tuple[str, ...]
@@ -171,8 +167,7 @@ class Findings:
         return any(where[: len(path)] == path for where, _ in self.mistakes)
 
 
-@dataclass(frozen=True, slots=True)
-class Draws:
+class Draws(NamedTuple):
     """What names the draws of an expression: its place, each draw's number in it, the elements of generators around."""
 
     place: str

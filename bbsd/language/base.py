@@ -34,7 +34,8 @@ class Part(BaseModel):
     A key without a value holds an empty mapping or list, where it may hold one.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    # Only a whole spec is validated, so that no part needs a validator of its own before one is asked for.
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False, defer_build=True)
 
     @classmethod
     def fields_by_key(cls) -> dict[str, FieldInfo]:

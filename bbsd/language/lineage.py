@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors import Diagnosis, SpecError, did_you_mean
 from bbsd.language.field_types import kind_of
 from bbsd.language.validation import child, has
-from bbsd.text import Source, differences, read, replace_blocks
+from bbsd.text import Source, read
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -47,6 +47,11 @@ class Lineage:
         return self.documents[0].source
 
     @property
+    def names(self) -> frozenset[str]:
+        """The names of the files."""
+        return frozenset(document.source.file for document in self.documents)
+
+    @property
     def is_readable(self) -> bool:
         """Whether all the files could be read, at least in part."""
         is_whole = EXTENDS not in self.documents[-1].data or self.documents[-1].data[EXTENDS] is None
@@ -68,6 +73,8 @@ class Lineage:
     @cached_property
     def flat(self) -> Document:
         """The files as one document: the last file's text with the changes that the others make."""
+        from bbsd.text.writing.patch import differences, replace_blocks
+
         flat = self.documents[-1]
         for document in reversed(self.documents[:-1]):
             data = overlay(flat.data, _without_extends(document))

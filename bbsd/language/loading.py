@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.errors import Diagnosis, Severity, SpecError
 from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
-from bbsd.language.overrides import FILE as OVERRIDES
-from bbsd.language.overrides import overrides_source, read_overrides, with_overrides
-from bbsd.language.recovery import recover
 from bbsd.language.validation import existing, form_mistakes, validate
-from bbsd.language.warnings.finding import warnings_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -60,6 +56,8 @@ class Loaded:
         """
         if self.overrides:
             return self._warnings_as_written()
+        from bbsd.language.warnings.finding import warnings_of
+
         diagnoses = _diagnoses([*self.noted, *warnings_of(self.meaning)], self.lineage, self.data, ())
         return tuple(_capped([each for each in diagnoses if each.place.file == self.source.file]))
 
@@ -73,8 +71,7 @@ class Loaded:
         return f"<Loaded {self.source.file}: {self.spec.name}>"
 
 
-@dataclass(frozen=True, slots=True)
-class _Examined:
+class _Examined(NamedTuple):
     """What plain data mean, None where they have mistakes, what was found, and values that YAML need not explain."""
 
     meaning: Meaning | None = None
@@ -103,8 +100,7 @@ def loaded_again(loaded: Loaded, *, seed: int = 0, overrides: Sequence[str] = ()
 
 
 def _loaded(files: Lineage, seed: int, overrides: Sequence[str]) -> Loaded:
-    assignments = read_overrides(overrides)
-    data = with_overrides(files.data, assignments, overrides)
+    assignments, data = _overridden(files.data, overrides)
     is_small = files.characters <= MAX_EXAMINED_TWICE
     examined = _Examined()
     if files.is_readable and isinstance(data, dict):
@@ -112,10 +108,22 @@ def _loaded(files: Lineage, seed: int, overrides: Sequence[str]) -> Loaded:
     meaning = examined.meaning
     if meaning is None or files.mistakes:
         diagnoses = _diagnoses(examined.found, files, data, assignments, examined.explained)
-        if in_overrides := [diagnosis for diagnosis in diagnoses if diagnosis.place.file == OVERRIDES]:
+        if in_overrides := [each for each in diagnoses if each.place.file not in files.names]:
+            from bbsd.language.overrides import overrides_source
+
             raise SpecError(_capped(in_overrides), overrides_source(overrides))
         raise files.error(_capped(diagnoses))
     return Loaded(files.source, files, tuple(overrides), data, meaning.spec, meaning, examined.found)
+
+
+def _overridden(data: dict[str, Data], overrides: Sequence[str]) -> tuple[tuple[Override, ...], Data]:
+    """Return arguments PATH=VALUE as read, and the data with their values set. Raises SpecError for wrong ones."""
+    if not overrides:
+        return (), data
+    from bbsd.language.overrides import read_overrides, with_overrides
+
+    assignments = read_overrides(overrides)
+    return assignments, with_overrides(data, assignments, overrides)
 
 
 def check(source: Source, seed: int = 0, *, warnings: bool = False) -> tuple[Diagnosis, ...]:
@@ -160,6 +168,8 @@ def _examine(data: dict[str, Data], files: Lineage, seed: int, *, is_small: bool
 
 def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) -> list[LocatedMistake]:
     """Return the mistakes of meaning in data that have mistakes of form."""
+    from bbsd.language.recovery import recover
+
     recovered = recover(data, errors)
     if recovered is None:
         return []
@@ -172,7 +182,7 @@ def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) 
 
 
 def _diagnoses(
-    mistakes: Iterable[LocatedMistake],
+    mistakes: Sequence[LocatedMistake],
     files: Lineage,
     data: Data,
     overrides: Sequence[Override],
@@ -182,6 +192,8 @@ def _diagnoses(
 
     Where the reading of YAML already reported a mistake, there is no other.
     """
+    if not mistakes and not files.mistakes:
+        return []
     from bbsd.language.meant.placing import Placing
 
     told = [each for each in files.mistakes if not _is_explained(each, files, explained)]
@@ -193,7 +205,8 @@ def _diagnoses(
         starts = {_start(place), _start(files.place(existing(path, data)))}
         if unreadable.isdisjoint(starts) and not (mistake.code == "BB021" and _lacks_a_part(files)):
             nearest = existing(path, data)
-            correction = None if place.file == OVERRIDES else placing.placed(mistake.correction, nearest)
+            is_in_files = place.file in files.names
+            correction = placing.placed(mistake.correction, nearest) if is_in_files else None
             message = mistake.message + _lines(mistake.seen_at, files, place.file)
             diagnoses.append(Diagnosis(mistake.code, message, place, mistake.advice, correction))
     return sorted(dict.fromkeys(diagnoses), key=lambda each: (each.severity is Severity.WARNING, each.place))

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from keyword import iskeyword
 from math import isfinite
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, NamedTuple, get_args
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
@@ -35,8 +34,7 @@ ObservationPath = tuple[str | int, ...]
 """Where a number stands in an observation: keys of mappings, and indices of tuples and arrays."""
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(NamedTuple):
     """A number of an observation.
 
     With a `size` it is a whole number from 0 to `size - 1`: a digit of a discrete observation, the first the most
@@ -54,8 +52,7 @@ class Field:
         return self.name != UNUSED
 
 
-@dataclass(frozen=True, slots=True)
-class Outside:
+class Outside(NamedTuple):
     """An environment that is stepped in Python: its target, the keyword arguments of its making, what it exchanges.
 
     `fields` are all numbers of the observation that the spec tells of, in the spec's order, those without a name too;

@@ -5,15 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 from bbsd.api.given.arguments import BadArgument
-from bbsd.api.results import Designed
 from bbsd.language.loading import Loaded
 from bbsd.runs.storage.finished import ARCHITECTURE, design_file
-from bbsd.text import Source, read, write
+from bbsd.text import Source, read
 
-AnySpec = str | Path | Mapping[str, Any] | Loaded | Designed
+if TYPE_CHECKING:
+    from bbsd.api.results import Designed
+
+AnySpec: TypeAlias = "str | Path | Mapping[str, Any] | Loaded | Designed"
 """A spec or a design: the path of a file, the folder of a run, which stands for its design, the text itself (with line
 breaks), its data as a dict, what `load` returned, or what `design` returned.
 """
@@ -31,12 +33,12 @@ def source_of(spec: AnySpec) -> Source:
     """
     if isinstance(spec, Loaded):
         return spec.source
-    if isinstance(spec, Designed):
-        return Source(TEXT if spec.written is None else str(spec.architecture), spec.text)
     if isinstance(spec, Mapping):
         return Source.given(DICT, _text_of(spec))
-    if isinstance(spec, str) and ("\n" in spec or "\r" in spec):
+    if isinstance(spec, str) and not is_path(spec):
         return Source.given(TEXT, spec)
+    if _is_designed(spec):
+        return Source(TEXT if spec.written is None else str(spec.architecture), spec.text)
     return Source.read(design_file(path_of(spec)))
 
 
@@ -52,7 +54,7 @@ def path_of(spec: object) -> Path:
 
 def run_of(spec: AnySpec) -> Path | None:
     """Return the folder of the run whose design is given, by itself or by the file of it; None where it is of none."""
-    if isinstance(spec, Designed):
+    if _is_designed(spec):
         return spec.written
     if not is_path(spec):
         return None
@@ -64,7 +66,7 @@ def name_of(spec: AnySpec) -> str:
     """Return what a spec that is given as no path is called: its file's name, or its own."""
     if isinstance(spec, Loaded):
         return spec.spec.name if spec.source.file in (TEXT, DICT) else Path(spec.source.file).resolve().name
-    if isinstance(spec, Designed):
+    if _is_designed(spec):
         return spec.name if spec.written is None else spec.folder.resolve().name
     source = source_of(spec)
     name = read(source).data.get("name")
@@ -77,7 +79,18 @@ def is_path(spec: object) -> bool:
     return isinstance(spec, str | os.PathLike) and not is_text
 
 
+def _is_designed(spec: object) -> TypeGuard[Designed]:
+    """Return whether a spec is given as the result of a design; without importing what these are made of for a path."""
+    if is_path(spec):
+        return False
+    from bbsd.api.results import Designed
+
+    return isinstance(spec, Designed)
+
+
 def _text_of(data: Mapping[str, Any]) -> str:
+    from bbsd.text.writing.writer import write
+
     try:
         return write(_plain(data, ()))
     except RecursionError:

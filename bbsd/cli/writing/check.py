@@ -11,8 +11,6 @@ from bbsd.cli.options import AsJson, spec_files
 from bbsd.cli.terminal.mistakes import MISTAKE
 from bbsd.cli.terminal.output import diff_text, has_color, say, show, show_commands
 from bbsd.errors import KINDS, SpecError, describe, did_you_mean
-from bbsd.report.plain import json_text
-from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.language.fixing import Made
@@ -98,12 +96,15 @@ def _check(specs: list[Path], form: MistakeFormat, fixing: Fixing, *, strict: bo
             # Beside a diff, which programs read, what is said of the specs is for people.
             (say if fixing is Fixing.SHOWN else show)("\n".join(texts))
         case MistakeFormat.JSON:
+            from bbsd.report.plain import json_text
+
             show(json_text(checked_plain(checked)))
         case MistakeFormat.GITHUB:
             from bbsd.report.spec.github import github_text
 
             show_commands(github_text(diagnoses))
         case MistakeFormat.SARIF:
+            from bbsd.report.plain import json_text
             from bbsd.report.spec.sarif import sarif_log
 
             show(json_text(sarif_log(diagnoses)))
@@ -144,6 +145,8 @@ def _fixed(spec: Path, fixing: Fixing) -> "tuple[Source, tuple[Made, ...]]":
     else:
         has_mark = spec.read_bytes().startswith(BYTE_ORDER_MARK.encode())
         text = BYTE_ORDER_MARK * has_mark + result.source.text
+        from bbsd.runs.storage.lock import write_result_text
+
         write_result_text(spec, text)
     return result.source, result.made
 

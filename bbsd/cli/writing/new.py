@@ -70,7 +70,8 @@ def template_text(template: Template) -> str:
 
 def _write(path: Path, template: Template) -> None:
     from bbsd.report.reference.schema import SCHEMA_FILE
-    from bbsd.text import Source, read, replace_blocks
+    from bbsd.text import Source, read
+    from bbsd.text.writing.patch import replace_blocks
 
     document = read(Source(template, template_text(template)))
     _create(path, replace_blocks(document, {("name",): path.stem[:MAX_NAME_LENGTH]}))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.environments.spaces.naming import action_names, proposals
 from bbsd.environments.spaces.sending import n_sent, taken_text, takes
 from bbsd.errors import escape
-from bbsd.text import write
+from bbsd.text.writing.writer import write
 
 if TYPE_CHECKING:
     from bbsd.environments.spaces.kinds import Space

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.elaboration.checks import has_arguments, require_kind, require_static_whole
@@ -128,7 +127,7 @@ def _of_generator(generator: Generator, scope: Scope, elaborate: Elaborate) -> l
         names = _unpack(generator, item, scope)
         if names is None:
             return None
-        draws = scope.draws and replace(scope.draws, elements=(*scope.draws.elements, index))
+        draws = scope.draws and scope.draws._replace(elements=(*scope.draws.elements, index))
         value = elaborate(generator.element, scope.inside(names, draws))
         elements.append(Element(item, value, generator.element.span))
     return None if items is None else elements

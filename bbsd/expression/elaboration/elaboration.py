@@ -108,7 +108,7 @@ def _number_draws(expr: Expr, scope: Scope) -> Scope:
     if scope.draws is None or not (calls := _draws_in(expr)):
         return scope
     ordinals = {call.span: ordinal for ordinal, call in enumerate(calls)}
-    return replace(scope, draws=replace(scope.draws, ordinals=ordinals))
+    return replace(scope, draws=scope.draws._replace(ordinals=ordinals))
 
 
 def _draws_in(expr: Expr) -> list[Call | OneOf]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.foreign.calls import attribute, foreign_function, listed_arguments, module, open_bracket
@@ -88,7 +87,7 @@ def translated(text: str, mistake: Mistake, key: str = "") -> Mistake:
         correction = _difference(text, last.text, all(step.is_certain for step in steps))
     span = Span(first.start, max(first.length, 1))
     message = first.message or mistake.message
-    return replace(mistake, message=message, span=span, advice=first.advice, correction=correction)
+    return mistake._replace(message=message, span=span, advice=first.advice, correction=correction)
 
 
 def _steps(text: str, key: str) -> list[Step]:

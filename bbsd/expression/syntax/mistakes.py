@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.syntax.tree import Span
 
@@ -28,8 +27,7 @@ def characters_of_key(span: Span) -> Span | None:
     return Span(KEY.start - 1 - span.start, span.length) if span.start < KEY.start else None
 
 
-@dataclass(frozen=True, slots=True)
-class Rewriting:
+class Rewriting(NamedTuple):
     """A text for a part of an expression, for a whole value (as YAML on one line), or for its key."""
 
     text: str
@@ -40,8 +38,7 @@ class Rewriting:
     """The path of the value that is rewritten, where it is not the one that the mistake is told at."""
 
 
-@dataclass(frozen=True, slots=True)
-class Enclosing:
+class Enclosing(NamedTuple):
     """Texts around a part of an expression; the whole is put in parentheses where it is not all, nor a call.
 
     It is never certain.
@@ -52,8 +49,7 @@ class Enclosing:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Addition:
+class Addition(NamedTuple):
     """An entry, `key: value`, that a block mapping lacks: its first one, or the one behind the entry at `behind`.
 
     It is never certain, as its value is the author's to choose.
@@ -64,8 +60,7 @@ class Addition:
     behind: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Mistake:
+class Mistake(NamedTuple):
     """A diagnosis relative to the text of one expression, to a whole value, or to its key.
 
     Its correction is relative to the same, or already placed in the file. `seen_at` are paths of what the

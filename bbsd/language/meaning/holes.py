@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.language.meaning.structure import OPEN_LAYER
 from bbsd.language.meaning.tables.table import OPEN_CELL
@@ -39,8 +39,7 @@ class OpenCells:
         yield from _blocks(self.module.table.given.translate(ONLY_OPEN), inputs, {})
 
 
-@dataclass(frozen=True, slots=True)
-class Holes:
+class Holes(NamedTuple):
     """What is open: cells of behaviors that have a layer or may get one, layers, and who may fill these."""
 
     cells: tuple[OpenCells, ...]

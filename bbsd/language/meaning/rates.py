@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.elaboration import elaboration
 from bbsd.expression.graph import Graph, Level, Node, needed
@@ -26,8 +25,7 @@ MAX_OPERATIONS = 600_000
 FOLLOWING = "soft_mutation, {} where it is not given,"
 
 
-@dataclass(frozen=True, slots=True)
-class Rates:
+class Rates(NamedTuple):
     """One number for each generation, or for each episode of a lifetime."""
 
     hard_mutation: tuple[float, ...]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import lgamma, log, log10
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.language.meaning.structure import OPEN_LAYER
 from bbsd.language.meaning.tables.table import OPEN_CELL
@@ -16,8 +15,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.structure import Structure
 
 
-@dataclass(frozen=True, slots=True)
-class Size:
+class Size(NamedTuple):
     """Open cells and layers, and the number of possible designs as a logarithm to base 10."""
 
     open_cells: int

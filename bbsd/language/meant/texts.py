@@ -57,9 +57,9 @@ def _foreign(diagnosis: Diagnosis, source: Source) -> Diagnosis:
             return diagnosis
         start, length = mistake.correction.span
         new = value[:start] + mistake.correction.text + value[start + length :]
-        written = replace(edit, text=scalar_text(new) if reads(new) else new)
+        written = edit._replace(text=scalar_text(new) if reads(new) else new)
         column = edit.column + mistake.span.start
-        place = replace(diagnosis.place, line=edit.line, column=column, length=max(1, mistake.span.length))
+        place = diagnosis.place._replace(line=edit.line, column=column, length=max(1, mistake.span.length))
         correction = Correction((written,), mistake.correction.is_certain)
         return replace(
             diagnosis, message=mistake.message, place=place, advice=mistake.advice, correction=correction

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bbsd.expression.syntax.mistakes import WHOLE, Rewriting
@@ -97,5 +96,5 @@ def blocks_of_costs(reading: Reading) -> None:
         edits.append(document.source.edit(node.start, node.end, new))
     mistake = goal_mistake(path, value)
     written = correction(document, edits, is_certain=False)
-    reading.told.append((reading.origin(path), replace(mistake, correction=written)))
+    reading.told.append((reading.origin(path), mistake._replace(correction=written)))
     reading.rename(path, "reward")

@@ -71,9 +71,9 @@ class Bounds:
         first: dict[int, Interval] = {}
         self._evaluate(order, {}, first)
         slots = {slot: first[node.number] for slot, node in start.items()}
+        then = dict(first)
         for number in range(MOST_PASSES):
-            then: dict[int, Interval] = {}
-            self._evaluate(order, slots, then)
+            self._evaluate_again(order, slots, then)
             grown = {slot: _hull(bounds, then[after[slot].number]) for slot, bounds in slots.items()}
             if grown == slots:
                 return {slot: _hull(first[start[slot].number], then[after[slot].number]) for slot in slots}
@@ -93,6 +93,18 @@ class Bounds:
                 )
             if node.number not in known:
                 known[node.number] = self._bounds(node, slots, [known[each.number] for each in node.operands])
+
+    def _evaluate_again(
+        self, order: Iterable[Node], slots: Mapping[Slot, Interval], known: dict[int, Interval]
+    ) -> None:
+        """Bring known bounds in line with those of the slots: of most values, nothing changes from pass to pass."""
+        changed = set[int]()
+        for node in order:
+            if node.operation == "slot" or not changed.isdisjoint([each.number for each in node.operands]):
+                bounds = self._bounds(node, slots, [known[each.number] for each in node.operands])
+                if bounds != known[node.number]:
+                    known[node.number] = bounds
+                    changed.add(node.number)
 
     def _bounds(self, node: Node, slots: Mapping[Slot, Interval], operands: list[Interval]) -> Interval:
         operation = node.operation

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from yaml import MarkedYAMLError
 
@@ -43,8 +43,7 @@ class _RefusedError(Exception):
         self.diagnosis = diagnosis
 
 
-@dataclass(frozen=True, slots=True)
-class _Anchored:
+class _Anchored(NamedTuple):
     """A node that an anchor names."""
 
     node: Scalar | Sequence | Mapping

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import yaml
 from yamlcore import CCoreLoader
@@ -27,8 +26,7 @@ EVENT_KINDS: dict[type[yaml.Event], EventKind] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(NamedTuple):
     """One event of the parser; `text` is a scalar's value, `style` its first character, or '' if it is plain."""
 
     kind: EventKind

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.errors import Correction, Diagnosis
 from bbsd.text.reading.traps import glued
@@ -24,8 +23,7 @@ LEAD = re.compile(r"\s*(?:- +)*(?:[^\s:#'\"][^:#'\"\[{]*:\s+)?")
 VALUES_WITH_END = ("[", "{", "'", '"', "*", "&")
 
 
-@dataclass(frozen=True, slots=True)
-class _Trouble:
+class _Trouble(NamedTuple):
     """An error of the parser: `at` is the offset where it was noticed, `since` where the construct begins."""
 
     source: Source

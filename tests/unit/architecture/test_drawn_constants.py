@@ -1,7 +1,8 @@
 import pytest
 
 from bbsd.architecture.drawn_constants import drawn_constants
-from bbsd.text import Source, read, write
+from bbsd.text import Source, read
+from bbsd.text.writing.writer import write
 from tests.unit.architecture.designs import meaning_of, shipped
 
 WITH = """

@@ -10,7 +10,8 @@ from bbsd.expression.scope import Findings
 from bbsd.language.meaning.tables.rules import table_of_rules
 from bbsd.language.meaning.tables.table import OPEN_CELL
 from bbsd.language.models import Behavior
-from bbsd.text import Source, read, write
+from bbsd.text import Source, read
+from bbsd.text.writing.writer import write
 
 TRUTH = ("false", "true")
 CUT = ("below 2", "2 to 5", "5 to 2 * top", "from 2 * top")

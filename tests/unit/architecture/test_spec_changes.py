@@ -2,7 +2,8 @@ import pytest
 
 from bbsd.architecture import given_architecture, spec_changes
 from bbsd.compiler import compile_meaning
-from bbsd.text import Source, read, replace_blocks
+from bbsd.text import Source, read
+from bbsd.text.writing.patch import replace_blocks
 from tests.unit.architecture.designs import SHIPPED, meaning_of, random_architecture, shipped, small
 
 

@@ -8,7 +8,8 @@ from bbsd.errors import KINDS, SpecError
 from bbsd.errors.kinds.environment import ENVIRONMENT_KINDS
 from bbsd.language.lineage import overlay
 from bbsd.language.loading import load
-from bbsd.text import Source, read, write
+from bbsd.text import Source, read
+from bbsd.text.writing.writer import write
 
 pytest.importorskip("gymnasium")
 ALLOWED = consent(["gymnasium", "minigrid", "mpe2"])

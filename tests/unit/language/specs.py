@@ -2,7 +2,8 @@
 
 from bbsd.language.loading import check, load
 from bbsd.language.meaning import Meaning
-from bbsd.text import Data, Source, read, write
+from bbsd.text import Data, Source, read
+from bbsd.text.writing.writer import write
 
 BASE = """
 bbsd: 1

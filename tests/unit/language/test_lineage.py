@@ -14,7 +14,8 @@ from bbsd.language import lineage
 from bbsd.language.lineage import MAX_FILES, overlay
 from bbsd.language.loading import check, load
 from bbsd.report.spec.configuration import configuration_text
-from bbsd.text import Source, differences, read, replace_blocks
+from bbsd.text import Source, read
+from bbsd.text.writing.patch import differences, replace_blocks
 from tests.unit.language.specs import BASE
 
 

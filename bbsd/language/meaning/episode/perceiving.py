@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from bbsd.expression.graph import Level
 from bbsd.expression.kinds import Kind
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.naming.names import Names, Stored
 
 
-@dataclass(frozen=True, slots=True)
-class SensorFault:
+class SensorFault(NamedTuple):
     """A fault of a sensor of all robots, from the decision of step `since` on, counted from 1.
 
     With `noise` a normal draw of standard deviation `size` is added, a `frozen` sensor keeps the value of that step, a

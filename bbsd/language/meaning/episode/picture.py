@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.elaboration import elaboration
 from bbsd.expression.elaboration.checks import require_kind
@@ -58,8 +58,7 @@ def elaborate_picture(view: View, moment: Moment) -> Picture:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Read:
+class _Read(NamedTuple):
     """A value and where to report its mistakes: at its own item of a list, or at the expression that gives it."""
 
     value: Value

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.elaboration import elaboration
 from bbsd.expression.elaboration.lookup import is_plain_number
@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.forms import Form
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(NamedTuple):
     """What a key of an action names: state, and the indices of the element that is set, none for all of it."""
 
     name: str
@@ -41,7 +40,7 @@ def read_target(key: str) -> Target | Mistake:
     try:
         tree = parse(key)
     except ExpressionError as error:
-        return replace(error.mistake, span=in_key(error.mistake.span))
+        return error.mistake._replace(span=in_key(error.mistake.span))
     tree, indices = with_spans(tree, in_key), list[Expr]()
     while isinstance(tree, Index):
         indices.insert(0, tree.index)

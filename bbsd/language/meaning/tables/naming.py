@@ -41,14 +41,14 @@ def bounds_of(cells: Labels) -> list[str] | None:
 NUMBER = r"[-+]?[\w.]+(?: ?[-+*/] ?[\w.]+)*"
 PLAIN, UP_TO = r"[-+]?[\w.]*\w", r"(?:\.\.\.?|,|-|–|to|until|and)"
 OTHER_RANGES = (
-    (re.compile(rf"(?:<|below|under|less than|smaller than|up to|until)\s*(?P<high>{NUMBER})"), True),
-    (re.compile(rf"(?:<=|at most)\s*(?P<high>{NUMBER})"), False),
-    (re.compile(rf"(?:>=|from|at least|≥)\s*(?P<low>{NUMBER})"), True),
-    (re.compile(rf"(?:>|above|over|more than|greater than|beyond)\s*(?P<low>{NUMBER})"), False),
-    (re.compile(rf"(?:between )?[\[(]?(?P<low>{PLAIN})\s*{UP_TO}\s*(?P<high>{PLAIN})[\])]?"), True),
-    (re.compile(rf"(?P<low>{NUMBER})\s*<=?\s*\w+\s*<=?\s*(?P<high>{NUMBER})"), True),
+    (rf"(?:<|below|under|less than|smaller than|up to|until)\s*(?P<high>{NUMBER})", True),
+    (rf"(?:<=|at most)\s*(?P<high>{NUMBER})", False),
+    (rf"(?:>=|from|at least|≥)\s*(?P<low>{NUMBER})", True),
+    (rf"(?:>|above|over|more than|greater than|beyond)\s*(?P<low>{NUMBER})", False),
+    (rf"(?:between )?[\[(]?(?P<low>{PLAIN})\s*{UP_TO}\s*(?P<high>{PLAIN})[\])]?", True),
+    (rf"(?P<low>{NUMBER})\s*<=?\s*\w+\s*<=?\s*(?P<high>{NUMBER})", True),
 )
-"""Ranges as they are written elsewhere, and whether the one that is meant is certain."""
+"""Ranges as they are written elsewhere, and whether the one that is meant is certain. Only mistakes compile them."""
 
 
 def meant_cell(word: str, cells: Labels) -> tuple[str, bool]:
@@ -57,7 +57,7 @@ def meant_cell(word: str, cells: Labels) -> tuple[str, bool]:
         return truth, True
     bounds = bounds_of(cells)
     for pattern, is_certain in OTHER_RANGES if bounds else ():
-        if match := pattern.fullmatch(word):
+        if match := re.fullmatch(pattern, word):
             parts = match.groupdict()
             low, high = (_bound(parts.get(side), bounds or []) for side in ("low", "high"))
             found = _range(low, high)

@@ -10,8 +10,8 @@ import pytest
 import bbsd
 from bbsd.errors import Severity, SpecError
 from bbsd.expression.scope import Findings
-from bbsd.language import loading
 from bbsd.language.loading import MAX_DIAGNOSES, check, load, loaded_again
+from bbsd.language.warnings import finding
 from bbsd.text import Source
 from tests.unit.language.specs import source
 
@@ -83,7 +83,7 @@ def test_they_are_those_of_the_spec_without_overrides() -> None:
 
 def test_they_are_looked_for_once_and_only_when_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
-    monkeypatch.setattr(loading, "warnings_of", lambda meaning: asked.append(meaning) or iter(()))
+    monkeypatch.setattr(finding, "warnings_of", lambda meaning: asked.append(meaning) or iter(()))
     loaded = load(source())
     assert asked == []
     assert loaded.warnings == loaded.warnings == ()

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.text import without_relative_modeline
+from bbsd.text.writing.modeline import without_relative_modeline
 
 REST = "# A task.\nbbsd: 1\n# yaml-language-server: $schema=later.json\n"
 

@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bbsd.text import DELETE, Data, DataPath, Deletion, Document, Source, read, replace_blocks, write
+from bbsd.text import Data, DataPath, Document, Source, read
+from bbsd.text.writing.patch import DELETE, Deletion, replace_blocks
+from bbsd.text.writing.writer import write
 
 SPEC = """\
 # A designer's file.

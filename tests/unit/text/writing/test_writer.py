@@ -5,7 +5,8 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bbsd.text import Data, Source, read, write
+from bbsd.text import Data, Source, read
+from bbsd.text.writing.writer import write
 
 TRICKY = [
     "",

@@ -4,7 +4,8 @@ import pytest
 
 from bbsd.errors import Diagnosis
 from bbsd.language.loading import check, load
-from bbsd.text import Data, Source, read, write
+from bbsd.text import Data, Source, read
+from bbsd.text.writing.writer import write
 from tests.unit.language.specs import merged
 
 BASE = """

@@ -7,7 +7,8 @@ from bbsd.expression.syntax.tree import Span
 from bbsd.language.meaning.behaviors import MAX_ACTIONS
 from bbsd.language.meaning.tables.symbols import SYMBOLS, filled_text, table_of_text, text_of_table
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL
-from bbsd.text import Source, read, write
+from bbsd.text import Source, read
+from bbsd.text.writing.writer import write
 from tests.unit.language.specs import check, codes, meaning_of, source
 
 INPUTS = {"near": ("false", "true"), "pace": ("0", "1", "2")}
