@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, NamedTuple, ge
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Mistake, Rewriting
 from bbsd.language.base import Entries
 from bbsd.language.field_types import ValueNameText, kind_of, shape, value_name, word_list_or_number
 
@@ -119,12 +119,35 @@ def _refuse(code: str, message: str, advice: str, at_key: bool = False) -> Pydan
     return PydanticCustomError("mistake", "{message}", {"message": message, "mistake": mistake})
 
 
+def _meant(kind: OutsideKind, value: str) -> str:
+    """Return the environment that a name probably means: with a version, a class in a module; else ''."""
+    text = value.strip().removesuffix(".py").replace("/", ".")
+    called = re.fullmatch(r"(?:\w+\.)?make\([\"'](.+?)[\"'].*\)", value.strip())
+    if kind == "python":
+        module, _, name = text.rpartition(".")
+        if name[:1].isupper():
+            text = f"{module}:{name}"
+        elif ":" not in text:
+            text = f"{text}:{''.join(part.capitalize() for part in name.split('_'))}"
+    elif called:
+        text = called[1]
+    else:
+        text = f"{value}-v1" if kind == "gymnasium" else f"{value}_v1"
+    return text if TARGETS[kind].fullmatch(text) else ""
+
+
 def _target(kind: OutsideKind) -> BeforeValidator:
     def checked(value: object) -> object:
         if value is None or (isinstance(value, str) and TARGETS[kind].fullmatch(value)):
             return value
         what = f'"{value}"' if isinstance(value, str) else kind_of(value)
-        raise _refuse("BB102", f"{what} cannot be the name of an environment", f"write {EXAMPLES[kind]}")
+        advice, correction = f"write {EXAMPLES[kind]}", None
+        if meant := _meant(kind, str(value)):
+            advice = f"write {meant}, or the one that is meant: {EXAMPLES[kind]}"
+            correction = Rewriting(meant, WHOLE, is_certain=False)
+        message = f"{what} cannot be the name of an environment"
+        mistake = Mistake("BB102", message, WHOLE, advice, correction)
+        raise PydanticCustomError("mistake", "{message}", {"message": message, "mistake": mistake})
 
     return BeforeValidator(checked)
 

@@ -143,13 +143,54 @@ def _unknown_option(option: str, words: list[str], commands: Any) -> str:  # noq
         return f"there is no option {option}; {key} is set by --set {path}=...: {command}"
     command = commands.get(words[0])
     known = [name for parameter in command.params for name in parameter.opts] if command else []
-    if near := nearest(option, [name for name in known if name.startswith("--")]):
-        return f"there is no option {option}; did you mean {near}?"
     others = [
         name for name, each in commands.items() if any(option in parameter.opts for parameter in each.params)
     ]
+    if (meant := OTHER_OPTIONS.get(option, "")) in known and meant:
+        changed = [meant if word == option else word for word in words]
+        return f"there is no option {option} of bbsd {words[0]}; it is {meant}: {_command(*changed)}"
+    if option == "--set" and words[0] in WITHOUT_SET:
+        return f"bbsd {words[0]} reads files as they are, without --set; {_set_elsewhere(words)}"
+    if not others and (near := nearest(option, [name for name in known if name.startswith("--")])):
+        return f"there is no option {option}; did you mean {near}?"
     where = f"; it is one of bbsd {', bbsd '.join(others[:3])}" if others else ""
     return f"there is no option {shown(option)} of bbsd {words[0]}{where}"
+
+
+OTHER_OPTIONS = {
+    "--episodes": "--budget",
+    "--iterations": "--budget",
+    "--steps": "--budget",
+    "--timesteps": "--budget",
+    "--n-episodes": "--episodes",
+    "--num-episodes": "--episodes",
+    "--output": "--out",
+    "--outdir": "--out",
+    "--output-dir": "--out",
+    "--folder": "--out",
+    "--workers": "--jobs",
+    "--processes": "--jobs",
+    "--threads": "--jobs",
+    "--timeout": "--time-limit",
+    "--time": "--time-limit",
+    "--random-seed": "--seed",
+    "--param": "--set",
+    "--override": "--set",
+    "--figure": "--plot",
+}
+"""What options are called elsewhere, where a command has none of that name."""
+WITHOUT_SET = ("check", "fmt")
+
+
+def _set_elsewhere(words: list[str]) -> str:
+    """Return how a value is set for a command that shows what it leads to."""
+    at = words.index("--set")
+    given = " ".join(words[at + 1 : at + 2])
+    value, others = given, [*words[1:at], *words[at + 2 :]]
+    if "=" not in given and others and at + 2 < len(words):
+        value = f"{given}={words[at + 2]}"
+        others = [*words[1:at], *words[at + 3 :]]
+    return f"bbsd config checks a spec with values set: {_command('config', *others, '--set', value)}"
 
 
 def _spaces(extra: list[str], words: list[str]) -> str:

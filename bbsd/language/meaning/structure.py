@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bbsd.errors import nearest
-from bbsd.expression.syntax.mistakes import Rewriting
+from bbsd.expression.syntax.mistakes import WHOLE, Rewriting
 from bbsd.language.models import OPEN, Spec
 
 if TYPE_CHECKING:
@@ -46,12 +46,33 @@ def elaborate_structure(spec: Spec, findings: Findings, broken: frozenset[str] =
         findings.report(
             ("structure",), "BB042", "a structure without layers; leave the key out to have it learned"
         )
+    if _reported_actions(spec, findings):
+        return _without_forced_layer((OPEN_LAYER,) * len(behaviors), all_behaviors)
     given = [_layer(word, index, spec, findings, broken) for index, word in enumerate(spec.structure)]
     candidates = tuple(behavior for behavior in all_behaviors if behavior not in given)
     if given.count(OPEN_LAYER) > len(candidates) and not broken:
         message = f"{given.count(OPEN_LAYER)} open layers, but {len(candidates)} behaviors to fill them"
         findings.report(("structure",), "BB042", message)
     return _without_forced_layer(tuple(layer for layer in reversed(given) if layer is not None), candidates)
+
+
+def _reported_actions(spec: Spec, findings: Findings) -> bool:
+    """Report a structure that names actions for their behaviors; return whether it does."""
+    owners = {
+        action: name for name, behavior in reversed(spec.behaviors.items()) for action in behavior.actions
+    }
+    known = {*spec.behaviors, OPEN}
+    words = spec.structure or []
+    wrong = next((at for at, word in enumerate(words) if word not in known and word in owners), None)
+    if wrong is None:
+        return False
+    word = words[wrong]
+    meant = list(dict.fromkeys(word if word in known else owners.get(word, word) for word in words))
+    listed = f"[{', '.join(meant)}]"
+    message = f'"{word}" is an action of {owners[word]}; structure lists behaviors'
+    correction = Rewriting(listed, is_certain=False, at=("structure",))
+    findings.report(("structure", wrong), "BB042", message, WHOLE, f"write structure: {listed}", correction)
+    return True
 
 
 def _without_forced_layer(layers: tuple[int, ...], candidates: tuple[int, ...]) -> Structure:

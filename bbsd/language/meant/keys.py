@@ -3,150 +3,27 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from bbsd.errors.suggestion import MAX_WORD
-from bbsd.expression.syntax.mistakes import KEY, Rewriting
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.language.base import FREE
+from bbsd.language.field_types import scalar_text
 from bbsd.language.goals import is_goal
 from bbsd.language.keys import blocks_with, fields_at
 from bbsd.language.meant.depth import blocks
-from bbsd.language.meant.layout import correction, moved
+from bbsd.language.meant.layout import column, correction, moved, stretch
+from bbsd.language.meant.words import BEHAVIOR, ENVIRONMENT, RULE, TOP
 from bbsd.language.validation import named
-from bbsd.text.nodes import Scalar
+from bbsd.text.nodes import Mapping, Scalar
 
 if TYPE_CHECKING:
-    from bbsd.errors import Correction
+    from bbsd.errors import Correction, Edit
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
 
 NEAR = 0.75
 """How much two keys are alike, from 0 to 1, where one certainly misspells the other."""
-TOP = {
-    "behaviour": "behaviors",
-    "behaviours": "behaviors",
-    "behavior": "behaviors",
-    "modules": "behaviors",
-    "skills": "behaviors",
-    "rewards": "reward",
-    "env": "environment",
-    "params": "constants",
-    "parameters": "constants",
-    "const": "constants",
-    "title": "name",
-    "description": "summary",
-    "layers": "structure",
-    "order": "structure",
-    "priorities": "structure",
-    "priority": "structure",
-    "hierarchy": "structure",
-    "arbitration": "structure",
-    "version": "bbsd",
-    "language": "bbsd",
-    "include": "extends",
-    "import": "extends",
-    "base": "extends",
-    "inherits": "extends",
-    "based_on": "extends",
-    "parent": "extends",
-    "training": "design",
-    "optimizer": "design",
-    "plot": "view",
-    "render": "view",
-    "visualization": "view",
-}
-ENVIRONMENT = {
-    "states": "state",
-    "variables": "state",
-    "sensor": "sensors",
-    "observations": "sensors",
-    "transition": "dynamics",
-    "transitions": "dynamics",
-    "updates": "dynamics",
-    "update": "dynamics",
-    "timesteps": "steps",
-    "time_steps": "steps",
-    "max_steps": "steps",
-    "horizon": "steps",
-    "length": "steps",
-    "num_robots": "robots",
-    "n_robots": "robots",
-    "agents": "robots",
-    "n_agents": "robots",
-    "done": "ends",
-    "terminal": "ends",
-    "terminates": "ends",
-    "termination": "ends",
-    "functions": "definitions",
-    "macros": "definitions",
-    "terminated": "ends",
-    "is_done": "ends",
-    "until": "ends",
-    "end": "ends",
-    "stop": "ends",
-    "finished": "ends",
-    "max_episode_steps": "steps",
-    "episode_length": "steps",
-    "episode_steps": "steps",
-    "n_steps": "steps",
-    "num_steps": "steps",
-    "duration": "steps",
-    "initial_state": "state",
-    "init": "state",
-    "initial": "state",
-    "start": "state",
-    "percepts": "sensors",
-    "perception": "sensors",
-    "sensing": "sensors",
-    "gym": "gymnasium",
-    "env_id": "gymnasium",
-    "kwargs": "with",
-    "arguments": "with",
-    "args": "with",
-    "options": "with",
-}
-BEHAVIOR = {
-    "sensors": "inputs",
-    "observations": "inputs",
-    "observes": "inputs",
-    "sees": "inputs",
-    "senses": "inputs",
-    "condition": "excited",
-    "active": "excited",
-    "activation": "excited",
-    "trigger": "excited",
-    "if": "excited",
-    "when": "excited",
-    "outputs": "actions",
-    "effects": "actions",
-    "policy": "rules",
-    "guard": "excited",
-    "enabled": "excited",
-    "precondition": "excited",
-    "preconditions": "excited",
-    "activate": "excited",
-    "postcondition": "expects",
-    "ensures": "expects",
-    "expect": "expects",
-    "percepts": "inputs",
-    "perceives": "inputs",
-}
-RULE = {
-    "then": "do",
-    "action": "do",
-    "act": "do",
-    "if": "when",
-    "case": "when",
-    "condition": "when",
-    "else": "otherwise",
-    "default": "otherwise",
-    "where": "when",
-    "given": "when",
-    "cells": "when",
-    "output": "do",
-    "choose": "do",
-    "select": "do",
-}
 ORDER = "the order in structure is the priority, from the highest layer down"
 NOWHERE = {"priority": ORDER, "level": ORDER, "layer": ORDER, "rank": ORDER, "weight": ORDER, "order": ORDER}
 """Keys of behaviors that have no place in a spec, and what says instead what they should."""
@@ -259,7 +136,8 @@ def _into_behaviors(reading: Reading, key: str) -> None:
     behaviors = reading.mapping(("behaviors",))
     example = next(iter(behaviors), "a behavior")
     advice = f"each behavior has its own: write it below {example}"
-    reading.tell((key,), "BB020", f'unexpected key "{key}" here: it belongs into a behavior', advice)
+    written = correction(reading.document((key,)), _copied(reading, key), is_certain=False)
+    reading.tell((key,), "BB020", f'unexpected key "{key}" here: it belongs into a behavior', advice, written)
     for behavior in behaviors.values():
         if not isinstance(behavior, dict):
             continue
@@ -267,6 +145,98 @@ def _into_behaviors(reading: Reading, key: str) -> None:
         if own is None or (isinstance(own, list) and isinstance(value, dict)):
             behavior[key] = value
     reading.remove((key,))
+
+
+def _copied(reading: Reading, key: str) -> list[Edit] | None:
+    """Return the edits that move a block from the top into each behavior that has none of it, or lists its names."""
+    own, node = stretch(reading, (key,)), reading.node((key,))
+    source = reading.document((key,)).source
+    if own is None or not isinstance(node, Mapping) or node.flow:
+        return None
+    edits = [source.edit(own[0], min(own[1] + 1, len(source.text)), "")]
+    for name in reading.mapping(("behaviors",)):
+        path: Path = ("behaviors", name)
+        behavior = reading.at(path)
+        value = behavior.get(key) if isinstance(behavior, dict) else None
+        inner = stretch(reading, path)
+        first = next(iter(behavior), None) if isinstance(behavior, dict) else None
+        below = reading.key((*path, first)) if first is not None else None
+        if inner is None or below is None or not (value is None or isinstance(value, list)):
+            continue
+        indent = " " * column(source, below.start)
+        entries = [
+            source.text[source.line_start(entry.key.start) : entry.value.end]
+            for inner_key, entry in node.entries.items()
+            if value is None or inner_key in value
+        ]
+        text = "\n".join(f"{indent}{line}" for entry in entries for line in entry.split("\n"))
+        if value is None:
+            edits.append(source.edit(inner[1], inner[1], f"\n{indent}{key}:\n{text}"))
+        elif (listed := stretch(reading, (*path, key))) is not None:
+            edits.append(source.edit(*listed, f"{indent}{key}:\n{text}"))
+    return edits if len(edits) > 1 else None
+
+
+OPTIONS = {
+    "seed": "--seed",
+    "seeds": "--seeds",
+    "random_seed": "--seed",
+    "jobs": "--jobs",
+    "workers": "--jobs",
+    "out": "--out",
+    "output": "--out",
+    "output_dir": "--out",
+    "time_limit": "--time-limit",
+    "runs": "--runs",
+}
+"""What is no part of a spec, and by which option a design is told of it."""
+
+
+def options_of_commands(reading: Reading) -> None:
+    """Take away keys of what is said on the command line, such as the seed."""
+    for path in ((), ("environment",), ("design",)):
+        for key in [*reading.mapping(path)]:
+            option = OPTIONS.get(key)
+            if option is None or key in (fields_at(path) or {}):
+                continue
+            value = scalar_text(reading.at((*path, key))) or "..."
+            message = f'unexpected key "{key}": a spec is the same with any; it is an option of the command'
+            advice = f"remove this line, and write: bbsd design {reading.files.source.file} {option} {value}"
+            reading.tell((*path, key), "BB020", message, advice)
+            reading.remove((*path, key))
+
+
+METHODS = {
+    "genetic": "paper",
+    "ga": "paper",
+    "evolution": "paper",
+    "evolutionary": "paper",
+    "coevolution": "paper",
+    "cem": "cross_entropy",
+    "ce": "cross_entropy",
+    "q_learning": "q",
+    "qlearning": "q",
+    "rl": "q",
+    "hill_climbing": "hill",
+    "default": "auto",
+    "none": "auto",
+}
+"""What methods of design are called elsewhere."""
+
+
+def methods(reading: Reading) -> None:
+    """Read another name of a method as the method."""
+    path: Path = ("design", "method")
+    value = reading.at(path)
+    new = METHODS.get(value.lower().replace("-", "_")) if isinstance(value, str) else None
+    if new is not None:
+        field = (fields_at(("design",)) or {})["method"]
+        message = (
+            f'there is no method "{value}": it is one of {", ".join(map(str, get_args(field.annotation)))}'
+        )
+        written = Rewriting(new, WHOLE, is_certain=False)
+        reading.tell(path, "BB023", message, f"{new} is the nearest", written, WHOLE)
+        reading.set(path, new)
 
 
 def without_place(reading: Reading) -> None:

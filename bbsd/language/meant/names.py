@@ -50,6 +50,8 @@ def keys_of_dynamics(reading: Reading) -> None:
         path, any_name = (*dynamics, key), "|".join(map(re.escape, stored))
         if name := _matched(key, DERIVATIVES, any_name):
             _derivative(reading, path, name)
+        elif (match := ELEMENT.fullmatch(key)) and "list(" in str(stored.get(match["name"], "")):
+            _element(reading, path, match["name"], str(stored[match["name"]]))
         elif name := _matched(key, (*NEXT, r"(?P<name>{0})\[\s*(?:\d+|r|i|robot)\s*\]"), any_name):
             message = f"the rule of {name} is the same for every robot: its key is {name}"
             if "[" not in key:
@@ -58,6 +60,65 @@ def keys_of_dynamics(reading: Reading) -> None:
                 continue
             reading.tell(path, "BB024", message, "", Rewriting(name, KEY, is_certain="[" not in key))
             reading.rename(path, name) if name not in reading.mapping(dynamics) else reading.remove(path)
+
+
+ELEMENT = re.compile(r"(?P<name>[a-z]\w*)(?P<indices>(?:\[[^\[\]]+\])+)")
+LISTED = re.compile(r"list\((?P<inner>.*) for (?P<name>\w+) in range\((?P<length>.+?)\)\)")
+
+
+def _element(reading: Reading, path: Path, name: str, start: str) -> None:
+    """Read `waiting[floor]: 0` in dynamics as the list as a whole, with that element changed."""
+    key = str(path[-1])
+    indices = [index.strip() for index in re.findall(r"\[([^\[\]]+)\]", key)]
+    lengths: list[str] = []
+    while match := LISTED.fullmatch(start.strip()):
+        lengths.append(match["length"])
+        start = match["inner"]
+    if len(indices) != len(lengths):
+        return
+    free = [letter for letter in "kjihg" if not re.search(rf"\b{letter}\b", key + str(reading.at(path)))]
+    names = free[: len(indices)]
+    which = " and ".join(f"{own} == {index}" for own, index in zip(names, indices, strict=False))
+    text = f"{scalar_text(reading.at(path))} if {which} else {name}{''.join(f'[{own}]' for own in names)}"
+    for own, length in zip(reversed(names), reversed(lengths), strict=False):
+        text = f"list({text} for {own} in range({length}))"
+    node, key_node, document = reading.node(path), reading.key(path), reading.document(path)
+    edits = None
+    if key_node is not None and isinstance(node, Scalar):
+        edits = [document.source.edit(key_node.start, node.end, f"{name}: {text}")]
+    message = f'"{key}" is an element of a list, and only actions set single elements'
+    is_certain = name not in reading.mapping(path[:-1])
+    written = correction(document, edits, is_certain=is_certain)
+    reading.tell(path, "BB134", message, f"set the list as a whole, {name}: {text}", written)
+    reading.remove(path)
+    if is_certain:
+        reading.set((*path[:-1], name), text)
+
+
+LAMBDA = re.compile(r"lambda\s+(?P<parameters>[\w, ]*?)\s*:\s*(?P<value>.+)", re.DOTALL)
+FUNCTION = re.compile(r"(?:def|function|fn|func)\s+(?P<key>\w+\s*\([\w, ]*\))")
+
+
+def functions(reading: Reading) -> None:
+    """Read `near: lambda a, b: ...`, and `def near(a, b): return ...`, as definitions with parameters."""
+    block: Path = ("environment", "definitions")
+    for key in [*reading.mapping(block)]:
+        path, text = (*block, key), scalar_text(reading.at((*block, key))) or ""
+        if match := LAMBDA.fullmatch(text.strip()):
+            new, value = f"{key}({match['parameters']})", match["value"]
+        elif match := FUNCTION.fullmatch(key.strip()):
+            new, value = match["key"], text.strip().removeprefix("return ")
+        else:
+            continue
+        node, key_node, document = reading.node(path), reading.key(path), reading.document(path)
+        edits = None
+        if key_node is not None and isinstance(node, Scalar):
+            edits = [document.source.edit(key_node.start, node.end, f"{new}: {value}")]
+        message = "a definition has its parameters in its key, and is its value"
+        written = correction(document, edits)
+        reading.tell(path, "BB051", message, f"write {new}: {value}", written)
+        reading.rename(path, new)
+        reading.set((*block, new), value)
 
 
 def _matched(key: str, patterns: tuple[str, ...], names: str) -> str | None:

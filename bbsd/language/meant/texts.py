@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,8 @@ from bbsd.expression.foreign.tokens import reads
 from bbsd.expression.foreign.translating import translated
 from bbsd.expression.syntax.mistakes import ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
-from bbsd.language.meant.layout import MAX_CHARACTERS
+from bbsd.language.meant.forms import NAMED
+from bbsd.language.meant.layout import MAX_CHARACTERS, STEP
 from bbsd.language.validation import validate
 from bbsd.text import read
 from bbsd.text.writing.scalars import scalar_text
@@ -49,6 +51,8 @@ def _foreign(diagnosis: Diagnosis, source: Source) -> Diagnosis:
     if not edit.text.startswith('"'):
         return diagnosis
     value = edit.text[1:-1]
+    if (below := _below_its_key(diagnosis, edit, value, source)) is not None:
+        return below
     try:
         parse(value)
     except ExpressionError as error:
@@ -65,6 +69,25 @@ def _foreign(diagnosis: Diagnosis, source: Source) -> Diagnosis:
             diagnosis, message=mistake.message, place=place, advice=mistake.advice, correction=correction
         )
     return diagnosis
+
+
+BLOCKS = (*NAMED, "environment", "inputs", "design", "view", "marks", "paths")
+"""Keys with keys below them."""
+
+
+def _below_its_key(diagnosis: Diagnosis, edit: Edit, value: str, source: Source) -> Diagnosis | None:
+    """Return what is said of `reward: docked: 1`, a block on the line of its key; None for other values."""
+    key, match = _key_before(edit, source), re.match(r"[\w-]+: \S", value)
+    if key not in BLOCKS or match is None:
+        return None
+    before = source.line(edit.line)[: edit.column - 1]
+    indent = " " * (len(before) - len(before.lstrip()) + STEP)
+    start = source.offset_of(edit.line) + len(before.rstrip())
+    end = source.offset_of(edit.line) + edit.end_column - 1
+    written = source.edit(start, end, f"\n{indent}{value}")
+    message = f"the keys of {key} stand on lines of their own, below it"
+    advice = f"write {value} on the next line, indented"
+    return replace(diagnosis, message=message, advice=advice, correction=Correction((written,)))
 
 
 def _key_before(edit: Edit, source: Source) -> str:

@@ -18,8 +18,9 @@ from bbsd.language.meant.forms import (
     single_reward,
     unordered_structure,
 )
-from bbsd.language.meant.keys import other_names, without_place, wrong_block
-from bbsd.language.meant.names import keys_of_dynamics, names
+from bbsd.language.meant.keys import methods, options_of_commands, other_names, without_place, wrong_block
+from bbsd.language.meant.names import functions, keys_of_dynamics, names
+from bbsd.language.meant.picture import places
 from bbsd.language.meant.reading import Reading
 from bbsd.language.meant.rules import decisions, mapping_of_rules, parts_of_rules
 from bbsd.language.meant.statements import cells_as_texts, conditions_as_expressions, if_statements
@@ -28,7 +29,9 @@ from bbsd.language.meant.values import (
     numbers_of_robots,
     steps_in_time,
     values_at_the_start,
+    whole_numbers,
 )
+from bbsd.language.meant.values_by_name import names_at_the_start, sensors_named_as_state
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,6 +42,7 @@ if TYPE_CHECKING:
 READINGS: tuple[Callable[[Reading], None], ...] = (
     not_indented,
     too_deep,
+    options_of_commands,
     other_names,
     wrong_block,
     lists_of_named,
@@ -58,11 +62,17 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     blocks_of_costs,
     values_at_the_start,
     steps_in_time,
+    whole_numbers,
+    methods,
+    places,
     if_statements,
     conditions_as_expressions,
     cells_as_texts,
+    functions,
     keys_of_dynamics,
     names,
+    names_at_the_start,
+    sensors_named_as_state,
 )
 """What is read as something else, in this order: where blocks stand, then what they are, then what is in them."""
 MAX_CHARACTERS = 300_000

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.mistakes import WHOLE, Rewriting
+from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.tree import Binary, Call, Expr, Name, Number
 from bbsd.language.goals import SMALL, goal_mistake, is_goal
+from bbsd.language.keys import fields_at
 from bbsd.language.meant.layout import correction
 from bbsd.text.nodes import Scalar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from bbsd.errors import Edit
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
+    from bbsd.text import Data
 
 STEPS: Path = ("environment", "steps")
 TIME = re.compile(
@@ -56,6 +63,83 @@ def steps_in_time(reading: Reading) -> None:
     written = Rewriting(str(steps), WHOLE, is_certain=unit.startswith("step"))
     reading.tell(STEPS, "BB022", message, advice, written, WHOLE)
     reading.set(STEPS, steps)
+
+
+BLOCKS_OF_COUNTS: tuple[Path, ...] = (
+    ("environment",),
+    ("design",),
+    *(("design", block) for block in ("stop", "coevolution", "learning", "culture", "answer")),
+)
+MULTIPLES = {"": 1, "k": 1_000, "m": 1_000_000, "thousand": 1_000, "million": 1_000_000}
+COUNT = re.compile(
+    r"(?P<number>\d+(?:[_,' ]\d{3})+|\d+(?:\.\d+)?(?:e\d+)?) ?(?P<unit>k|m|thousand|million|)"
+    r"(?: (?:episodes|steps|robots|agents|generations))?",
+    re.IGNORECASE,
+)
+
+
+def whole_numbers(reading: Reading) -> None:
+    """Read `100k`, `1,000` and `10 / dt` as the whole numbers that they are."""
+    for block in BLOCKS_OF_COUNTS:
+        fields = fields_at(block) or {}
+        for key, value in reading.mapping(block).items():
+            field = fields.get(key)
+            if field is None or not isinstance(value, str) or not _takes_whole(field.annotation):
+                continue
+            if (number := _whole_of(value, reading.mapping(("constants",)))) is None:
+                continue
+            path, is_counted = (*block, key), COUNT.fullmatch(value.strip()) is not None
+            message = f"{key} must be a whole number"
+            message += "" if is_counted else ", not an expression: it is the same whatever constants are"
+            written = Rewriting(str(number), WHOLE, is_certain=is_counted)
+            reading.tell(path, "BB022", message, f"write {key}: {number}", written, WHOLE)
+            reading.set(path, number)
+
+
+def _takes_whole(annotation: object) -> bool:
+    """Return whether a key takes a whole number, perhaps besides other things, but no expression."""
+    text = str(annotation)
+    return annotation is int or ("int" in text and "Expression" not in text)
+
+
+def _whole_of(text: str, constants: dict[str, Data]) -> int | None:
+    """Return the whole number that a text means, None for other texts."""
+    if match := COUNT.fullmatch(text.strip()):
+        number = float(re.sub("[_,' ]", "", match["number"])) * MULTIPLES[match["unit"].lower()]
+        return int(number) if number.is_integer() else None
+    try:
+        value = _calculated(parse(text), constants)
+    except (ExpressionError, ZeroDivisionError, OverflowError, TypeError):
+        return None
+    whole = None if value is None else round(value)
+    return (
+        whole if whole is not None and value is not None and abs(whole - value) < 1e-9 * abs(value) else None
+    )
+
+
+def _calculated(tree: Expr, constants: dict[str, Data]) -> float | None:
+    """Return what arithmetic of numbers and constants gives; None for anything else."""
+    match tree:
+        case Number(value=value):
+            return value
+        case Name(name=name) if isinstance(constant := constants.get(name), int | float):
+            return float(constant)
+        case Call(function="round" | "int" | "floor" | "ceil", arguments=(argument,)):
+            inner = _calculated(argument, constants)
+            return None if inner is None else float(round(inner))
+        case Binary(operator=operator, left=left, right=right) if operator in ARITHMETIC:
+            first, second = _calculated(left, constants), _calculated(right, constants)
+            return None if first is None or second is None else ARITHMETIC[operator](first, second)
+    return None
+
+
+ARITHMETIC: dict[str, Callable[[float, float], float]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "//": operator.floordiv,
+}
 
 
 def values_at_the_start(reading: Reading) -> None:

@@ -190,11 +190,14 @@ def _second_colon(trouble: _Trouble) -> Diagnosis:
         return diagnosis
     if ":" not in source.text[above : source.line_end(above)]:
         return _no_colon(trouble, above)
+    start = trouble.at - len(before.lstrip())
+    by = start - source.line_start(start) - (above - source.line_start(above))
     return trouble.says(
         "this line is indented more than the one above it, which has a value already",
         "the keys of one mapping begin in the same column",
-        trouble.at - len(before.lstrip()),
+        start,
         trouble.at,
+        source.edit(start - by, start, "") if by > 0 else None,
     )
 
 
@@ -222,6 +225,10 @@ def _no_colon(trouble: _Trouble, start: int) -> Diagnosis:
     if mark := next((mark for mark in ("//", "/*") if key.startswith(mark)), None):
         edit = source.edit(start, start + len(mark), "#")
         return trouble.says(f'a comment begins with #, not with "{mark}"', "", start, end, edit)
+    if assigned := ASSIGNED.match(key):
+        edit = source.edit(start + assigned.end("key"), start + assigned.end("sign"), ": ")
+        message = f'a key is divided from its value by a colon, not by "{assigned["sign"].strip()}"'
+        return trouble.says(message, "a line is `key: value` or `- item`", start, end, edit)
     edit = source.edit(start + len(key), start + len(key), ":")
     message = (
         f'there is no colon after "{key}"'
@@ -229,6 +236,12 @@ def _no_colon(trouble: _Trouble, start: int) -> Diagnosis:
         else "there is no colon after this key"
     )
     return trouble.says(message, "a line is `key: value` or `- item`", start, end, edit)
+
+
+ASSIGNED = re.compile(
+    r"(?P<key>[A-Za-z]\w*(?:\([\w, ]*\)|\[[^\]]*\])?)(?P<sign>\s*(?::=|<-|=(?!=))\s*)(?=\S)"
+)
+"""A key and its value with the sign of an assignment between: `dt = 0.1`, `near(a, b) = a < b`."""
 
 
 def _closes_nothing(trouble: _Trouble) -> Diagnosis:

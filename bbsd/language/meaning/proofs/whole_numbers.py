@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from bbsd.expression.graph import needed, whole_nodes
 from bbsd.expression.kinds import Kind
+from bbsd.expression.syntax.mistakes import Enclosing
 from bbsd.language.meaning.naming.constants import GENERATION_SLOT
 
 if TYPE_CHECKING:
@@ -53,7 +54,10 @@ def report_fractions(episode: Values | None, constants: Constants, findings: Fin
     for path, span, purpose, node in findings.wholes:
         if not whole[node.number]:
             message = f"{purpose} must be a whole number, and this need not be one"
-            findings.report(path, "BB064", message, span, "round it: floor(...) or round(...)")
+            advice = "round it: floor(...) or round(...)"
+            if purpose.startswith("what values"):
+                advice += "; or cut it at bounds: cut(..., 0.5)"
+            findings.report(path, "BB064", message, span, advice, Enclosing("round(", ")", span))
 
 
 def whole_values(episode: Values, constants: Constants) -> set[Slot]:

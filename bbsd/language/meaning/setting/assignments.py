@@ -118,6 +118,10 @@ class _Setting:
         self.names.findings.report(path, "BB135", message, KEY, advice)
 
 
+MAX_LISTED = 8
+"""Names of state that an advice lists."""
+
+
 def _report_no_state(name: str, path: Path, names: Names) -> None:
     if name in names_outside(names.spec.environment) and name not in names.unusable:
         message = f"{what_sets(name)}, and an action cannot set it"
@@ -125,7 +129,10 @@ def _report_no_state(name: str, path: Path, names: Names) -> None:
     elif name not in names.unusable:
         message, near = _not_state(name, path, names)
         correction = Rewriting(near, KEY, is_certain=False) if near else None
-        names.findings.report(path, "BB033", message, KEY, "actions set a robot's own state", correction)
+        advice = f"actions set a robot's own state: {', '.join([*names.spec.environment.state][:MAX_LISTED])}"
+        if name in names.spec.environment.world:
+            advice += f"; {name} gets its value in dynamics, which read what actions set"
+        names.findings.report(path, "BB033", message, KEY, advice, correction)
 
 
 def _not_state(target: str, path: Path, names: Names) -> tuple[str, str]:

@@ -12,7 +12,7 @@ from bbsd.expression.elaboration.lookup import is_plain_number
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
 from bbsd.expression.scope import Draws, Named
-from bbsd.expression.syntax.mistakes import KEY, ExpressionError, Mistake, in_key
+from bbsd.expression.syntax.mistakes import KEY, ExpressionError, Mistake, Rewriting, in_key
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.tree import Expr, Index, Name, with_spans
 from bbsd.kernel.functions import clamp_index
@@ -40,7 +40,13 @@ def read_target(key: str) -> Target | Mistake:
     try:
         tree = parse(key)
     except ExpressionError as error:
-        return error.mistake._replace(span=in_key(error.mistake.span))
+        from bbsd.expression.foreign.translating import translated
+
+        mistake = translated(key, error.mistake)
+        correction = mistake.correction
+        if isinstance(correction, Rewriting):
+            correction = correction._replace(span=in_key(correction.span))
+        return mistake._replace(span=in_key(mistake.span), correction=correction)
     tree, indices = with_spans(tree, in_key), list[Expr]()
     while isinstance(tree, Index):
         indices.insert(0, tree.index)

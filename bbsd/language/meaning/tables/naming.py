@@ -64,7 +64,18 @@ def meant_cell(word: str, cells: Labels) -> tuple[str, bool]:
             if cells_named(found, cells) is not None:
                 is_given = all(part in (None, low, high) for part in parts.values())
                 return found, is_certain and is_given
+    if bounds and (cell := _cell_of(word, bounds, cells)):
+        return cell, False
     return nearest(word, cells), False
+
+
+def _cell_of(word: str, bounds: list[str], cells: Labels) -> str:
+    """Return the cell in which a number lies, '' for other words."""
+    try:
+        number, numbers = float(word), [float(bound) for bound in bounds]
+    except ValueError:
+        return ""
+    return cells[sum(bound <= number for bound in numbers)]
 
 
 def _range(low: str | None, high: str | None) -> str:
