@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.tree import Binary, Call, Expr, Name, Number
+from bbsd.language.field_types import grouped
 from bbsd.language.goals import SMALL, goal_mistake, is_goal
 from bbsd.language.keys import fields_at
 from bbsd.language.meant.layout import correction
@@ -85,6 +86,8 @@ def whole_numbers(reading: Reading) -> None:
         for key, value in reading.mapping(block).items():
             field = fields.get(key)
             if field is None or not isinstance(value, str) or not _takes_whole(field.annotation):
+                continue
+            if grouped.__name__ in repr(field) and grouped(value) is not value:
                 continue
             if (number := _whole_of(value, reading.mapping(("constants",)))) is None:
                 continue
