@@ -64,7 +64,7 @@ fuzz: $(VENV)/.demo
 	$(BIN)/python -m fuzzing --seconds $(or $(SECONDS),60)
 	$(BIN)/python -m fuzzing.folders --seconds $(or $(SECONDS),60)
 
-# Failing and ending calls, kills, damaged checkpoints, races: fuzzing/faults. All of it takes two hours.
+# Failing and ending calls, kills, damaged checkpoints, races: fuzzing/faults. All of it takes some two hours and a half.
 faults: $(VENV)/.demo
 	$(BIN)/python -m fuzzing.faults $(PART) $(OPTIONS)
 
