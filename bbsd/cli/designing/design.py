@@ -4,7 +4,7 @@ import time
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,6 +12,7 @@ from bbsd.cli.designing.budget import read_budget, read_seeds, read_time
 from bbsd.cli.designing.continuing import former_design, say_how_to_continue
 from bbsd.cli.designing.designed import show_design, show_price, show_seeds
 from bbsd.cli.designing.search_figures import Additions
+from bbsd.cli.designing.seeds import designs_of_seeds, order_of
 from bbsd.cli.designing.workers import AnyEngine, EngineName, Scheduler, chosen_engine, require_engine
 from bbsd.cli.options import (
     AllowImport,
@@ -32,8 +33,6 @@ from bbsd.cli.terminal.output import error_console, leave_now, say
 from bbsd.cli.terminal.warnings import say_warnings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rich.console import Console
 
     from bbsd.api import Designed, Interrupted
@@ -120,7 +119,7 @@ def design(
         typer.Option(
             metavar="N",
             min=1,
-            help="Parallel jobs: processes for several runs, threads within a run; affects only the speed.",
+            help="Parallel jobs: processes for several seeds or runs, threads within a run; affects only the speed.",
         ),
     ] = 1,
     engine: AnyEngine = EngineName.PROCESSES,
@@ -217,73 +216,53 @@ def design(
 
         console = error_console()
 
-        def design_one(
-            loaded: "Loaded",
-            seed: int,
-            out: Path | None,
-            finish: "Callable[[Designed], object]",
-            *,
-            resume: bool,
-        ) -> "Designed":
+        options: dict[str, Any] = {
+            "runs": runs,
+            "lanes": lanes,
+            "more": more,
+            "within": within,
+            "rivals": _rivals(rival, loaded, every=compare_methods),
+            "start": start or (),
+            "time_limit": limit,
+        }
+        overdue = partial(_leave, console, quiet=quiet)
+        base = out or RUNS / f"{spec.stem}-seeds{seeds}"
+        try:
+            if seeds is not None:
+                orders = [
+                    order_of(spec, each, overrides, base / f"seed-{each}", additions, options, resume=resume)
+                    for each in read_seeds(seeds)
+                ]
+                several = designs_of_seeds(
+                    orders, opening, jobs, workers, console, quiet=quiet, overdue=overdue, base=base
+                )
+                show_seeds(several, as_json=as_json)
+                return
             with ExitStack() as showing:
-                listener = showing.enter_context(generation_listener(console, quiet=quiet))
 
-                def finished(designed: "Designed") -> None:
+                def finish(designed: "Designed") -> None:
+                    """Show the result first: matplotlib takes longer than a small design."""
                     showing.close()
-                    finish(designed)
+                    show_design(designed, seed, runs, by_time=within is not None, as_json=as_json)
+                    additions.add(designed, seed)
 
-                return api.design(
+                api.design(
                     loaded,
                     seed=seed,
-                    runs=runs,
                     out=out,
                     below=RUNS if out is None else None,
                     resume=resume,
-                    lanes=lanes,
                     jobs=jobs,
-                    more=more,
-                    within=within,
-                    rivals=_rivals(rival, loaded, every=compare_methods),
-                    progress=listener,
-                    overdue=partial(_leave, console, quiet=quiet),
+                    progress=showing.enter_context(generation_listener(console, quiet=quiet)),
+                    overdue=overdue,
                     engine=workers,
-                    start=start or (),
-                    time_limit=limit,
-                    finish=finished,
+                    finish=finish,
+                    **options,
                     **opening,
                 )
-
-        finish = partial(
-            _show_and_add,
-            additions=additions,
-            seed=seed,
-            runs=runs,
-            by_time=within is not None,
-            as_json=as_json,
-        )
-        base = out or RUNS / f"{spec.stem}-seeds{seeds}"
-        try:
-            if seeds is None:
-                design_one(loaded, seed, out, finish, resume=resume)
-                return
-            several = {}
-            for each in read_seeds(seeds):
-                part = base / f"seed-{each}"
-                text = load(spec, seed=each, set=overrides)
-                add = partial(additions.add, seed=each, part=part.name)
-                several[each] = design_one(text, each, part, add, resume=resume and part.exists())
-            show_seeds(several, as_json=as_json)
         except api.Interrupted as stopped:
             say_how_to_continue(stopped, out=out if seeds is None else base)
             raise typer.Exit(INTERRUPTED) from None
-
-
-def _show_and_add(
-    designed: "Designed", additions: Additions, seed: int, runs: int, *, by_time: bool, as_json: bool
-) -> None:
-    """Show the result first: matplotlib takes longer than a small design."""
-    show_design(designed, seed, runs, by_time=by_time, as_json=as_json)
-    additions.add(designed, seed)
 
 
 def _leave(console: "Console", stopped: "Interrupted", *, quiet: bool) -> None:

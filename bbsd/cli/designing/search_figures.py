@@ -11,6 +11,9 @@ from bbsd.report.figures import draw_curves, require_figure
 from bbsd.report.wording.numbers import number
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Any
+
     from bbsd.api import Designed
     from bbsd.cli.terminal.access import Stepping
 
@@ -30,7 +33,7 @@ class Additions:
     """A design that figures compare it with."""
     tensorboard: Path | None
     """The folder of event files."""
-    opening: "Stepping"
+    opening: "Stepping | Mapping[str, Any]"
     """How an environment in Python is opened."""
 
     def require(self, seed: int, out: Path | None, *, several: bool) -> None:

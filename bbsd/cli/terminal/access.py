@@ -51,4 +51,9 @@ def stepping(
 
 def _announce(module: str, file: str) -> None:
     """Print a note that a module is imported, and where it lies."""
-    say(f"importing {escape(module)} from {escape(file)}")
+    say(import_text(module, file))
+
+
+def import_text(module: str, file: str) -> str:
+    """Return the note on a module that is imported, and where it lies."""
+    return f"importing {escape(module)} from {escape(file)}"
