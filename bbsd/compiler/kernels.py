@@ -14,6 +14,7 @@ import numpy as np
 
 from bbsd.compiler.details import Detail
 from bbsd.compiler.joint import joint_partition
+from bbsd.compiler.passes.list_arrays import MOST_ELEMENTS_WRITTEN_OUT
 from bbsd.compiler.passes.pipeline import pipeline, run_passes
 from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
 from bbsd.compiler.stepped import SteppedRollout, phase_names, phases_of
@@ -53,11 +54,12 @@ def kernel_source(
     lanes: int,
     details: Sequence[Detail],
     most_written_out: int = MOST_ROBOTS_WRITTEN_OUT,
+    most_elements: int = MOST_ELEMENTS_WRITTEN_OUT,
     *,
     in_phases: bool = False,
 ) -> str:
     """Return the source of a module with these rollouts, `lanes` episodes side by side; whole, or in phases."""
-    programs = run_passes(meaning, details, pipeline(most_written_out))
+    programs = run_passes(meaning, details, pipeline(most_written_out, most_elements))
     joint = joint_partition(meaning.episode.modules) if Detail.PRACTICE in details else None
     return module_source(programs, tables, lanes, joint, in_phases=in_phases)
 
@@ -74,6 +76,8 @@ class Kernels:
     """Threads or, where Python steps the environment, processes that share the lanes; they change no bit."""
     most_written_out: int = MOST_ROBOTS_WRITTEN_OUT
     """Robots up to this number are written one after the other, more in loops."""
+    most_elements: int = MOST_ELEMENTS_WRITTEN_OUT
+    """Lists of up to so many elements have a variable for each, longer ones an array where that can be."""
     stepper: Callable[[], Stepper] | None = None
     """Makes what steps the environment, if it is stepped in Python."""
 
@@ -113,7 +117,13 @@ class Kernels:
 
     def _source(self, details: tuple[Detail, ...], lanes: int, most_written_out: int) -> str:
         return kernel_source(
-            self.meaning, self.tables, lanes, details, most_written_out, in_phases=self.is_stepped
+            self.meaning,
+            self.tables,
+            lanes,
+            details,
+            most_written_out,
+            self.most_elements,
+            in_phases=self.is_stepped,
         )
 
     def _names(self, details: tuple[Detail, ...]) -> tuple[str, ...]:

@@ -143,6 +143,27 @@ class PairFolds(NamedTuple):
     numbers: tuple[int, ...]
 
 
+# --- Where a kernel keeps a list of state in one array (`compiler.passes.list_arrays`)
+
+
+class Elements(NamedTuple):
+    """An element of a list of state: it stands at `base + sum(stride * index)`, each index clamped to its length."""
+
+    slot: Slot
+    """The list, without a place."""
+    own: bool
+    """Whether a loop over robots has a list for each."""
+    base: int
+    strides: tuple[int, ...]
+    lengths: tuple[int, ...]
+
+
+class ListShape(NamedTuple):
+    """How many elements a list of state has, dimension by dimension."""
+
+    lengths: tuple[int, ...]
+
+
 NodeData = (
     None
     | int
@@ -156,6 +177,8 @@ NodeData = (
     | RobotLiterals
     | RobotIndices
     | PairFolds
+    | Elements
+    | ListShape
 )
 """None where the operation and its operands say all; an int is a place in the constants, a robot, an exponent or a
 fold's number, a str an operation to fold by."""

@@ -7,6 +7,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from bbsd.compiler import compile_meaning
+from bbsd.compiler.passes.list_arrays import MOST_ELEMENTS_WRITTEN_OUT
 from bbsd.language.loading import load
 from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
@@ -18,12 +19,15 @@ from tests.interpreter.made_up import specs
 from tests.interpreter.made_up_designs import random_agents
 from tests.interpreter.made_up_meanings import meaning_made_up
 from tests.interpreter.made_up_outside import MadeUpLanes, MadeUpWorld, with_world_outside
+from tests.unit.compiler.robots import with_loops
 
 SPECS = Path(__file__).parents[2] / "specs"
 SHIPPED = sorted((*SPECS.glob("*.yaml"), *SPECS.glob("tasks/*.yaml"), *SPECS.glob("everyday/*.yaml")))
 COMPILED = ("abstract", "object_lifting", "object_lifting_hand", "forager")  # the others would take minutes
 SHORTER = {"acrobot": 10, "aggregation": 3}
 """Steps of specs that the interpreter needs seconds for in each."""
+ELEMENTS = st.sampled_from([1, MOST_ELEMENTS_WRITTEN_OUT])
+"""The elements of a list up to which each has a variable: made-up lists are short."""
 
 
 def meaning_of(spec, seed):
@@ -101,10 +105,10 @@ def test_cells_at_and_beyond_their_bounds():
 
 
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(specs(), st.integers(0, 2**32), st.integers(1, 3), st.sampled_from([1, 2]))
-def test_plain_kernels_of_specs_that_are_made_up(data, seed, generation, lanes):
+@given(specs(), st.integers(0, 2**32), st.integers(1, 3), st.sampled_from([1, 2]), ELEMENTS)
+def test_plain_kernels_of_specs_that_are_made_up(data, seed, generation, lanes, elements):
     problem = compile_meaning(meaning_made_up(data, seed), lanes=lanes, compiled=False)
-    compared(problem, seed, generation, n_agents=3, agents_seed=seed)
+    compared(with_loops(problem, elements=elements), seed, generation, n_agents=3, agents_seed=seed)
 
 
 OUTSIDE = (
@@ -116,8 +120,8 @@ OUTSIDE = (
 
 
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(specs(), st.sampled_from(OUTSIDE), st.integers(0, 2**32), st.sampled_from([1, 2]))
-def test_plain_kernels_of_worlds_that_are_stepped_in_python(data, exchanged, seed, lanes):
+@given(specs(), st.sampled_from(OUTSIDE), st.integers(0, 2**32), st.sampled_from([1, 2]), ELEMENTS)
+def test_plain_kernels_of_worlds_that_are_stepped_in_python(data, exchanged, seed, lanes, elements):
     spec = Spec.model_validate(with_world_outside(data, *exchanged))
     meaning, mistakes = elaborate(spec, seed)
     assume(not mistakes)  # an index by what need not be whole, now that it is observed
@@ -128,4 +132,4 @@ def test_plain_kernels_of_worlds_that_are_stepped_in_python(data, exchanged, see
         compiled=False,
         stepper=lambda: MadeUpLanes(spec.environment, episode.outside, episode.sent),
     )
-    compared(problem, seed, 1, n_agents=3, agents_seed=seed)
+    compared(with_loops(problem, elements=elements), seed, 1, n_agents=3, agents_seed=seed)

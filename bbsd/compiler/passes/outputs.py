@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.graph import needed
-from bbsd.expression.node_data import Slot
+from bbsd.expression.graph import Level, needed
+from bbsd.expression.node_data import Elements, Slot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -27,7 +27,19 @@ def with_slots_read(outputs: Iterable[Node], episode: Episode) -> list[Node]:
     outputs, slots = list(outputs), set[Slot]()
     while True:
         nodes = [*outputs, *(node for slot, node in episode.after.items() if slot in slots)]
-        read = {node.slot for node in needed(nodes) if node.operation == "slot"}
+        read = slots_read(nodes).keys()
         if read == slots:
             return nodes
-        slots = read
+        slots = set(read)
+
+
+def slots_read(outputs: Iterable[Node]) -> dict[Slot, Level]:
+    """Return the slots that nodes and what they depend on read, with the level of each."""
+    read: dict[Slot, Level] = {}
+    for node in needed(outputs):
+        match node.data:
+            case Slot() if node.operation == "slot":
+                read[node.data] = node.level
+            case Elements(slot, own):
+                read[slot] = Level.EACH if own else Level.LANE
+    return read

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.compiler.details import Detail
+from bbsd.compiler.passes.list_arrays import MOST_ELEMENTS_WRITTEN_OUT, keep_lists_in_arrays
 from bbsd.compiler.passes.quick_moduli import compute_moduli_quickly
 from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT, loop_over_robots
 from bbsd.compiler.passes.shared_slots import share_slots
@@ -37,10 +38,13 @@ class Pass(NamedTuple):
     why: str
 
 
-def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...]:
+def pipeline(
+    most_written_out: int = MOST_ROBOTS_WRITTEN_OUT, most_elements: int = MOST_ELEMENTS_WRITTEN_OUT
+) -> tuple[Pass, ...]:
     """Return all passes, first to last.
 
-    A program with more robots than `most_written_out` gets loops over robots.
+    A program with more robots than `most_written_out` gets loops over robots, a list of more elements than
+    `most_elements` an array.
     """
     return (
         Pass(
@@ -68,6 +72,13 @@ def pipeline(most_written_out: int = MOST_ROBOTS_WRITTEN_OUT) -> tuple[Pass, ...
             "An arctangent that is only compared need not be computed. Where that is not proven, TERMS computes it; "
             "what is stepped in Python takes so long that no episode may have to run again for it.",
         ),
+        Pass(
+            "list arrays",
+            lambda program: _with_arrays(program, most_elements),
+            frozenset({Detail.CREDIT, Detail.TERMS, Detail.PRACTICE}),
+            "Neither compile time nor a step grows with a list of which elements are set at an index. A trace is not "
+            "compiled, and names each element.",
+        ),
     )
 
 
@@ -84,6 +95,11 @@ def run_passes(
                     rewritten[id(program)] = step.rewrite(program)
                 programs[detail] = rewritten[id(program)]
     return programs
+
+
+def _with_arrays(program: Program, most_elements: int) -> Program:
+    episode, to_prove = keep_lists_in_arrays(program.meaning.episode, program.to_prove, most_elements)
+    return Program(replace(program.meaning, episode=episode), to_prove)
 
 
 def _with_tangents(program: Program) -> Program:

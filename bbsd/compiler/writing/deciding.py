@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.language.meaning.episode.episode import Episode
 
-FINITE = frozenset({"literal", "constant", "step", "sign", "sin", "cos", "atan", "atan2", "tanh", "cell_of"})
+FINITE = frozenset(
+    {"literal", "element", "constant", "step", "sign", "sin", "cos", "atan", "atan2", "tanh", "cell_of"}
+)
 """Operations whose values are finite where those of slots are, whatever their operands."""
 KEEPING = frozenset(
     {
@@ -71,7 +73,7 @@ def _subjects(cells: Iterable[Node]) -> Iterator[Node]:
 
 def _indices(node: Node) -> Iterator[Node]:
     """Yield the numbers by which a node takes an element."""
-    if node.operation in ("gather", "clamp_index"):
+    if node.operation in ("gather", "element", "clamp_index"):
         yield from (operand for operand in node.operands if operand.kind is Kind.NUMBER)
     if node.operation == "select" and (index := _chosen_by(node)) is not None:
         yield index

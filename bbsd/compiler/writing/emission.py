@@ -23,13 +23,15 @@ from bbsd.compiler.writing.precedence import (
     sum_of,
     times,
 )
+from bbsd.compiler.writing.rollout_function import as_read
 from bbsd.compiler.writing.schedule import stages_of
-from bbsd.expression.graph import Level, Node, needed
-from bbsd.expression.node_data import RobotDraws, RobotGathers
+from bbsd.expression.graph import Level, Node, needed, value_of
+from bbsd.expression.node_data import Elements, RobotDraws, RobotGathers
 from bbsd.expression.operations import BINDING, EXPENSIVE
+from bbsd.kernel.functions import clamp_index
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.naming import Namer
@@ -217,6 +219,11 @@ class Emitter:
                 return self._draw(node, into)
             case "gather":
                 return self._gather(node, into)
+            case "element":
+                return self._element(node, into)
+            case "same_place":
+                one, other = (self.clamped(operand, node.index, into) for operand in operands)
+                return infix("==", one, other)
             case "table" | "pick" | "of" | "other" | "theirs" | "so_far":
                 return self.loops.text(node, into, self)
         arguments = [self._text(operand, into) for operand in operands]
@@ -240,11 +247,31 @@ class Emitter:
             terms = [self.loops.by_robot(map(str, gather.bases))]
         else:
             terms = [Text(str(gather.base))]
-        for stride, length, index in zip(gather.strides, gather.lengths, node.operands, strict=True):
-            clamped = self.call("clamp_index", self._text(index, into), Text(str(length - 1)))
-            terms.append(times(stride, clamped))
+        terms += self._steps(node, gather.strides, gather.lengths, into)
         index_text = sum_of(terms)
         return index_text._replace(source=f"constants[{index_text.source}]", binds=ATOM)
+
+    def _element(self, node: Node, into: Block) -> Text:
+        function, elements = self.loops.function, node.holding(Elements)
+        steps = self._steps(
+            node, [stride * function.lanes for stride in elements.strides], elements.lengths, into
+        )
+        offset = sum_of([Text(str(elements.base * function.lanes)), *steps])
+        element = function.in_list(function.slots[elements.slot], offset)
+        return as_read(offset._replace(source=element, binds=ATOM), node.kind)
+
+    def _steps(
+        self, node: Node, strides: Sequence[int], lengths: Sequence[int], into: Block
+    ) -> Iterator[Text]:
+        """Yield how far from the first element each of a node's indices leads."""
+        for stride, length, index in zip(strides, lengths, node.operands, strict=True):
+            yield times(stride, self.clamped(index, length - 1, into))
+
+    def clamped(self, index: Node, last: int, into: Block) -> Text:
+        """Return the source of an index from 0 to the last place."""
+        if index.literal:
+            return Text(str(clamp_index(value_of(index), last)))
+        return self.call("clamp_index", self._text(index, into), Text(str(last)))
 
 
 def emitter_of(

@@ -8,6 +8,7 @@ next, so a loop over the lanes of one robot certainly does not overwrite what it
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import accumulate
 
 from bbsd.expression.kinds import Kind
 
@@ -21,9 +22,13 @@ class Memory:
     own_numbers: list[str] = field(default_factory=list)
     own_integers: list[str] = field(default_factory=list)
     """The arrays with values of each robot, where there are loops over robots."""
+    lengths: dict[str, int] = field(default_factory=dict)
+    """Of arrays that keep lists, how many elements they have for every lane."""
 
-    def add(self, name: str, kind: Kind, *, own: bool) -> str:
+    def add(self, name: str, kind: Kind, *, own: bool, length: int = 1) -> str:
         """Add an array and return its name; truths are kept as the numbers 0 and 1."""
+        if length > 1:
+            self.lengths[name] = length
         if kind is Kind.CELL:
             (self.own_integers if own else self.integers).append(name)
         else:
@@ -46,11 +51,28 @@ class Memory:
 
     def team_size(self, lanes: int) -> int:
         """Return how many numbers the team's arrays take."""
-        return (1 + len(self.numbers) + len(self.integers)) * lanes
+        return (1 + self._length(self.numbers) + self._length(self.integers)) * lanes
 
     def size(self, lanes: int, robots: int) -> int:
         """Return how many numbers all arrays take."""
-        return self.team_size(lanes) + (len(self.own_numbers) + len(self.own_integers)) * lanes * robots
+        own = self._length(self.own_numbers) + self._length(self.own_integers)
+        return self.team_size(lanes) + own * lanes * robots
+
+    def _length(self, names: list[str]) -> int:
+        return sum(map(self.length_of, names))
+
+    def length_of(self, name: str) -> int:
+        """Return how many elements an array has for every lane: 1 where it keeps no list."""
+        return self.lengths.get(name, 1)
+
+    def _placed(self, arrays: list[tuple[str, str]]) -> list[tuple[str, str, int, int]]:
+        """Return arrays, each with its view, how many of a lane's values stand before its own, and how many it has."""
+        lengths = [self.length_of(name) for name, _ in arrays]
+        before = accumulate(lengths, initial=0)
+        return [
+            (name, view, place, length)
+            for (name, view), place, length in zip(arrays, before, lengths, strict=False)
+        ]
 
     def lines(self, lanes: int) -> list[str]:
         """Return the lines that set up the team's arrays."""
@@ -58,21 +80,24 @@ class Memory:
         return [
             "streams = as_words(numbers)",
             *(["cells = as_integers(numbers)"] if self.integers else []),
-            *(f"{name} = part({view}, {k * lanes}, {lanes})" for k, (name, view) in enumerate(arrays)),
+            *(
+                f"{name} = part({view}, {before * lanes}, {length * lanes})"
+                for name, view, before, length in self._placed(arrays)
+            ),
         ]
 
     def own_lines(self, lanes: int, robots: int) -> list[str]:
         """Return the lines that set up the robots' arrays, behind the team's; each begins with the first robot."""
         arrays = _views("own_", self.own_numbers, self.own_integers)
-        stride = len(arrays) * lanes
+        stride = (self._length(self.own_numbers) + self._length(self.own_integers)) * lanes
         size = stride * robots
         return [
             f"stride = {stride}",
             f"own_numbers = part(numbers, {self.team_size(lanes)}, {size})",
             *(["own_cells = as_integers(own_numbers)"] if self.own_integers else []),
             *(
-                f"{name} = part({view}, {k * lanes}, {size - k * lanes})"
-                for k, (name, view) in enumerate(arrays)
+                f"{name} = part({view}, {before * lanes}, {size - before * lanes})"
+                for name, view, before, _ in self._placed(arrays)
             ),
         ]
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from bbsd.compiler.details import IN_DETAIL, Detail
 from bbsd.compiler.writing.arbitration import Arbitration
 from bbsd.compiler.writing.emission import emitter_of
+from bbsd.compiler.writing.lists import Lists
 from bbsd.compiler.writing.loop_fission import LONGEST_ONCE, loop_lines
 from bbsd.compiler.writing.practice import RECORDS, Practice
 from bbsd.compiler.writing.precedence import Text, name_text
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.emission import Emitter
     from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.compiler.writing.schedule import Closing
+    from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
 
 
@@ -37,6 +39,7 @@ class Parts:
     function: RolloutFunction
     arbitration: Arbitration
     totals: Totals
+    lists: Lists
 
     def start(self) -> list[str]:
         """Return the lines that set every lane's key, tables, starting values and sums."""
@@ -51,16 +54,24 @@ class Parts:
             arbitration.practice.start(first)
         end = closing_of(emitter.blocks, emitter.stage_of, start.values())
         blocks = {slot: end.knowing(own=function.is_own(array)) for slot, array in function.slots.items()}
-        texts = {slot: emitter.text(node, blocks[slot]) for slot, node in start.items()}
+        texts = {
+            slot: emitter.text(node, blocks[slot])
+            for slot, node in start.items()
+            if node.operation != "list_start"
+        }
         for slot, text in texts.items():
             self._store_slot(slot, text, blocks[slot])
-        self.totals.start(first, end.each)
+        for slot, node in start.items():
+            if node.operation == "list_start":
+                self.lists.start(slot, node, emitter, blocks[slot])
+        self.totals.start(first, end.each, self.lists)
         if function.running is not None:
             first.store(function.at(function.running), ONE)
         if function.uncertain is not None:
             first.store(function.at(function.uncertain), ZERO)
         is_long = len(first.statements) > LONGEST_ONCE
-        return loop_lines(emitter.blocks, function, split=function.looped or is_long)
+        lines = loop_lines(emitter.blocks, function, split=function.looped or is_long)
+        return [*lines, *self.lists.written()]
 
     def step(self) -> list[str]:
         """Return the lines of a step of every lane, in the order of the language's definition."""
@@ -72,7 +83,8 @@ class Parts:
         self._write_decision(emitter, deciding)
         self._write_outcome(emitter, deciding, end)
         all_over = [] if function.running is None else [f"if {function.running}.sum() == 0.0:", "    break"]
-        return [*arbitration.look_up(), *loop_lines(emitter.blocks, function), *all_over]
+        lines = loop_lines(emitter.blocks, function)
+        return [*arbitration.look_up(), *lines, *self.lists.written(), *all_over]
 
     def decide(self) -> list[str]:
         """Return the lines that decide a step and keep the choices, and what the robots send outside."""
@@ -103,7 +115,8 @@ class Parts:
             first.define(action, Text(function.chosen(robot)), Kind.CELL, function.episode.choices[robot])
         self._write_outcome(emitter, first, end)
         lives = [] if function.running is None else [f"living[lane] = {function.running}[lane]"]
-        return [*loop_lines(emitter.blocks, function), *(function.lane_loop(lives) if lives else [])]
+        lines = [*loop_lines(emitter.blocks, function), *self.lists.written()]
+        return [*lines, *(function.lane_loop(lives) if lives else [])]
 
     @property
     def lasting_names(self) -> list[str]:
@@ -128,7 +141,7 @@ class Parts:
 
     def finish(self) -> list[str]:
         """Return loops that write the sums to where the caller reads them."""
-        return self.totals.finish()
+        return self.totals.finish(self.lists)
 
     def _begin_step(self, emitter: Emitter, records: Collection[str]) -> None:
         if self.arbitration.practice is not None:
@@ -146,13 +159,15 @@ class Parts:
         function, totals = self.function, self.totals
         deciding.comment("Act, then dynamics and sensors.", starts_phase=True)
         after = self._after(emitter, end)
+        for slot, node in self._lists_after.items():
+            self.lists.store(slot, node, emitter, end.knowing(own=function.is_own(function.slots[slot])))
         end.each.comment("Reward: what each robot earned goes to what controlled it.")
         totals.add(emitter, end)
         if function.uncertain is not None:
             totals.add_uncertain(function.uncertain, emitter, end)
         if function.detail in IN_DETAIL:
             end.each.comment("What an evaluation adds up.")
-            totals.add_details(emitter, end)
+            totals.add_details(emitter, end, self.lists)
         if function.detail is Detail.TRACE:
             totals.record(emitter, end)
         if function.detail is Detail.PRACTICE:
@@ -169,7 +184,7 @@ class Parts:
         function, texts = self.function, {}
         for slot, array in function.slots.items():
             node, name = function.episode.after[slot], f"next_{slot.text(function.robots)}"
-            if node.operation == "slot" and node.data == slot:
+            if (node.operation == "slot" and node.data == slot) or node.operation == "list_after":
                 continue
             block = end.storing(own=function.is_own(array))
             if node.operation == "slot":
@@ -178,6 +193,12 @@ class Parts:
             else:
                 texts[slot] = emitter.repeatable(node, block, name)
         return texts
+
+    @property
+    def _lists_after(self) -> dict[Slot, Node]:
+        """What a step sets of the lists that arrays keep."""
+        nodes = {slot: self.function.episode.after[slot] for slot in self.function.slots}
+        return {slot: node for slot, node in nodes.items() if node.operation == "list_after"}
 
     def _store_slot(self, slot: Slot, text: Text, block: Block) -> None:
         function = self.function
@@ -189,4 +210,4 @@ def parts_of(function: RolloutFunction, joint: JointPartition | None = None) -> 
     """Return the parts of a rollout; that of practice records cells of a joint partition."""
     practice = None if joint is None else Practice(function, joint)
     arbitration = Arbitration(function, practice)
-    return Parts(function, arbitration, Totals(function, arbitration, practice))
+    return Parts(function, arbitration, Totals(function, arbitration, practice), Lists(function))

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import prod
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import IN_DETAIL, Detail, traced_definitions
-from bbsd.compiler.passes.outputs import credit_outputs, with_slots_read
+from bbsd.compiler.passes.outputs import credit_outputs, slots_read, with_slots_read
 from bbsd.compiler.writing.blocks import Block
 from bbsd.compiler.writing.memory import Memory
 from bbsd.compiler.writing.naming import Namer
-from bbsd.compiler.writing.precedence import COMPARISON, Text, call, infix, name_text
+from bbsd.compiler.writing.precedence import COMPARISON, Text, call, infix, name_text, sum_of
 from bbsd.compiler.writing.schedule import FIRST
-from bbsd.expression.graph import Level, Node, needed
+from bbsd.expression.graph import Level, Node
 from bbsd.expression.kinds import Kind
-from bbsd.expression.node_data import Slot
+from bbsd.expression.node_data import ListShape, Slot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -80,16 +81,16 @@ class RolloutFunction:
         """Return a name for a value of one robot."""
         return Slot(stem, robot).text(self.robots)
 
-    def keep(self, name: str, kind: Kind = Kind.NUMBER, level: Level = Level.LANE) -> str:
-        """Add an array for a value in every lane, or in every lane of each robot; return its name."""
-        return self._kept(self.namer(name), kind, level)
+    def keep(self, name: str, kind: Kind = Kind.NUMBER, level: Level = Level.LANE, length: int = 1) -> str:
+        """Add an array for a value or a list in every lane, or in every lane of each robot; return its name."""
+        return self._kept(self.namer(name), kind, level, length)
 
     def keep_numbered(self, stem: str, kind: Kind, level: Level) -> str:
         """Add an array that is named by the stem and the first number that is free; return its name."""
         return self._kept(self.namer.numbered(stem), kind, level)
 
-    def _kept(self, name: str, kind: Kind, level: Level) -> str:
-        return self.memory.add(name, kind, own=self.looped and level in OWN)
+    def _kept(self, name: str, kind: Kind, level: Level, length: int = 1) -> str:
+        return self.memory.add(name, kind, own=self.looped and level in OWN, length=length)
 
     def is_own(self, array: str) -> bool:
         """Return whether an array holds a value of each robot."""
@@ -99,10 +100,15 @@ class RolloutFunction:
         """Return an array's element of the present lane and robot."""
         return f"{array}[own + lane]" if self.is_own(array) else f"{array}[lane]"
 
+    def in_list(self, array: str, offset: Text) -> str:
+        """Return an element of an array that keeps a list, of the present lane and robot."""
+        first = [Text("own")] if self.is_own(array) else []
+        return f"{array}[{sum_of([*first, offset, Text('lane')]).source}]"
+
     def read(self, array: str, kind: Kind = Kind.NUMBER, index: Text | None = None) -> Text:
         """Return an array's value of the present lane and robot, or at an index; truths are kept as 0 and 1."""
         element = Text(self.at(array)) if index is None else Text(f"{array}[{index.source}]", uses=index.uses)
-        return _as_read(element, kind)
+        return as_read(element, kind)
 
     def as_stored(self, text: Text, kind: Kind) -> Text:
         """Return a value as arrays keep it."""
@@ -145,9 +151,9 @@ class RolloutFunction:
     @cached_property
     def slots(self) -> dict[Slot, str]:
         """The arrays of the slots that a later step reads."""
-        read = {node.slot: node.level for node in needed(self.outputs) if node.operation == "slot"}
+        read = slots_read(self.outputs)
         return {
-            slot: self.keep(slot.text(self.robots), node.kind, read[slot])
+            slot: self.keep(slot.text(self.robots), node.kind, read[slot], length_of(node))
             for slot, node in self.episode.after.items()
             if slot in read
         }
@@ -176,7 +182,7 @@ class RolloutFunction:
                 ("next", episode.after),
             )
             for slot, node in group.items()
-            if not node.literal and node.operation not in ("slot", "constant", "step")
+            if not node.literal and node.operation not in ("slot", "constant", "step", "list_after")
         }
 
     @cached_property
@@ -220,7 +226,7 @@ class RolloutFunction:
                 return Text("float(key[lane])")
             case "outside":
                 element = f"outside[{self._outside_rows[node.slot]}, lane]"
-                return _as_read(Text(element), node.kind)
+                return as_read(Text(element), node.kind)
         return self._constant(node)
 
     @cached_property
@@ -243,7 +249,12 @@ class RolloutFunction:
         }
 
 
-def _as_read(element: Text, kind: Kind) -> Text:
+def length_of(node: Node) -> int:
+    """Return how many elements a slot keeps for every lane, given its next value: 1 where it is no list."""
+    return prod(node.data.lengths) if isinstance(node.data, ListShape) else 1
+
+
+def as_read(element: Text, kind: Kind) -> Text:
     """Return an element of an array as the value that it holds: truths are kept as 0 and 1."""
     return Text(f"{element.source} != 0.0", COMPARISON, element.uses) if kind is Kind.TRUTH else element
 

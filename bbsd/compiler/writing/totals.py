@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import groupby
+from itertools import accumulate, groupby
 from typing import TYPE_CHECKING
 
 from bbsd.compiler.details import IN_DETAIL, Detail, checked_slots, traced_definitions, traced_slots
@@ -12,7 +12,7 @@ from bbsd.compiler.writing.deciding import deciding_numbers
 from bbsd.compiler.writing.loop_fission import once_loops
 from bbsd.compiler.writing.looping import FIRST_ROBOT
 from bbsd.compiler.writing.precedence import Text, infix, join, name_text, sum_of, times
-from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO
+from bbsd.compiler.writing.rollout_function import ONE, OWN, ZERO, length_of
 from bbsd.expression.graph import value_of
 from bbsd.expression.kinds import Kind
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bbsd.compiler.writing.arbitration import Arbitration
     from bbsd.compiler.writing.blocks import Block
     from bbsd.compiler.writing.emission import Emitter
+    from bbsd.compiler.writing.lists import Lists
     from bbsd.compiler.writing.practice import Practice
     from bbsd.compiler.writing.rollout_function import RolloutFunction
     from bbsd.compiler.writing.schedule import Closing
@@ -43,6 +44,8 @@ class Totals:
     function: RolloutFunction
     arbitration: Arbitration
     practice: Practice | None = None
+    counted: str | None = None
+    """The array of the steps that a step counts, where loops behind others need it."""
     earned: dict[tuple[str, int], Text] = field(default_factory=dict)
     """What each term gave each robot in a step, where it has a name."""
 
@@ -99,15 +102,21 @@ class Totals:
         return [self.function.keep("undecided")] if self.deciding else []
 
     def _count_of(self, slot: Slot) -> str:
-        name = f"not_finite_{slot.text(self.function.robots)}"
-        return self.function.keep(name, level=self.function.episode.after[slot].level)
+        name, node = f"not_finite_{slot.text(self.function.robots)}", self.function.episode.after[slot]
+        return self.function.keep(name, level=node.level, length=length_of(node))
 
-    def start(self, team: Block, robot: Block) -> None:
+    def _length(self, slot: Slot) -> int:
+        return length_of(self.function.episode.after[slot])
+
+    def start(self, team: Block, robot: Block, lists: Lists) -> None:
         """Store 0 in all sums: the team's, and each robot's in another block."""
         details = [array for arrays in self.details.values() for array in arrays]
         for array in [self.total, *self.credit, *details, *self.not_finite.values(), *self.undecided]:
             block = robot if self.function.is_own(array) else team
-            block.store(self.function.at(array), ZERO)
+            if (length := self.function.memory.length_of(array)) > 1:
+                lists.fill(array, length, ZERO)
+            else:
+                block.store(self.function.at(array), ZERO)
 
     def add(self, emitter: Emitter, end: Closing) -> None:
         """Add a step's reinforcement: what each robot earned goes to what controlled it."""
@@ -195,7 +204,7 @@ class Totals:
         function = self.function
         block.store(function.at(array), join("+", [function.read(array), *texts]))
 
-    def add_details(self, emitter: Emitter, end: Closing) -> None:
+    def add_details(self, emitter: Emitter, end: Closing, lists: Lists) -> None:
         """Add what an evaluation reports: terms, steps of control, steps taken, values that are not finite."""
         function, robots, step = self.function, range(self.function.robots), self._step
         for term, array in zip(function.episode.reward, self.details["terms"], strict=True):
@@ -205,6 +214,9 @@ class Totals:
             self._add(end.each, array, [self._if(condition, step) for condition in controls])
         for slot, array in self.not_finite.items():
             block = end.knowing(own=function.is_own(array))
+            if self._length(slot) > 1:
+                lists.count(array, slot, self._step_kept(end))
+                continue
             finite = function.call_of("is_finite", emitter.text(function.episode.after[slot], block))
             self._add(block, array, [function.call_of("select", finite, ZERO, step)])
         for array in self.undecided:
@@ -243,6 +255,15 @@ class Totals:
         """The number of steps that a step counts: none once the lane's episode is over."""
         function = self.function
         return ONE if function.running is None else function.read(function.running)
+
+    def _step_kept(self, end: Closing) -> Text:
+        """Return the number of steps that a step counts, for loops behind what ends the episode."""
+        if self.function.running is None:
+            return ONE
+        if self.counted is None:
+            self.counted = self.function.keep("counted")
+            end.team.store(self.function.at(self.counted), self._step)
+        return self.function.read(self.counted)
 
     def add_step(self, end: Closing) -> None:
         """Count the step."""
@@ -284,7 +305,7 @@ class Totals:
             for robot in range(self.function.robots)
         ]
 
-    def finish(self) -> list[str]:
+    def finish(self, lists: Lists) -> list[str]:
         """Return loops that write the sums to where the caller reads them."""
         function = self.function
         lines = [f"returns[base + lane] = {self._per_robot(function.read(self.total)).source}"]
@@ -299,28 +320,35 @@ class Totals:
                 value = self._per_robot(total) if argument == "terms" else total
                 lines.append(f"{argument}[{row}base + lane] = {value.source}")
         own_lines = list[str]()
-        for array, row, of_robots in self._not_finite_rows():
+        for array, first, length, of_robots in self._not_finite_rows():
+            if length > 1:
+                lists.take(array, first, length, of_robots=of_robots)
+                continue
             into = own_lines if of_robots else lines
-            into.append(f"not_finite[{row}, base + lane] = {function.at(array)}")
-        return [*once_loops(lines, function), *(function.robot_loop([], [own_lines]) if own_lines else [])]
+            into.append(f"not_finite[{first.source}, base + lane] = {function.at(array)}")
+        loops = [*once_loops(lines, function), *(function.robot_loop([], [own_lines]) if own_lines else [])]
+        return [*loops, *lists.written()]
 
-    def _not_finite_rows(self) -> list[tuple[str, str, bool]]:
-        """Return the arrays that count values that are not finite, each with its row, and whether each robot has one.
+    def _not_finite_rows(self) -> list[tuple[str, Text, int, bool]]:
+        """Return the arrays that count values that are not finite, with rows, lengths, and whether each robot has one.
 
         Without loops over robots they are in order. With them an array is for all robots, whose rows follow one
         another, each robot's with those of all its elements.
         """
-        function, rows, first = self.function, list[tuple[str, str, bool]](), 0
+        function, rows, first = self.function, list[tuple[str, Text, int, bool]](), 0
         for _, group in groupby(self.not_finite.items(), lambda entry: entry[0][:2]):
             arrays = list(group)
             robots = function.team if function.looped and arrays[0][0][1] is not None else 1
-            for element, (_, array) in enumerate(arrays):
-                row = Text(str(first + element))
+            lengths = [self._length(slot) for slot, _ in arrays]
+            for (_, array), length, before in zip(
+                arrays, lengths, accumulate(lengths, initial=0), strict=False
+            ):
+                row = Text(str(first + before))
                 if robots > 1:
-                    row = sum_of([row, times(len(arrays), Text("robot"))])
-                rows.append((array, row.source, robots > 1))
-            first += robots * len(arrays)
-        return [*rows, *((array, str(first), False) for array in self.undecided)]
+                    row = sum_of([row, times(sum(lengths), Text("robot"))])
+                rows.append((array, row, length, robots > 1))
+            first += robots * sum(lengths)
+        return [*rows, *((array, Text(str(first)), 1, False) for array in self.undecided)]
 
 
 def _is_conditional(node: Node) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import Detail
 from bbsd.compiler.kernels import kernel_source
+from bbsd.compiler.passes.list_arrays import MOST_ELEMENTS_WRITTEN_OUT
 from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
 from bbsd.solver.random_agents import random_agents
@@ -49,14 +50,15 @@ def moving(*, robots=4, lanes=1, compiled=False, state=(), left=(), right=(), re
     return compile_meaning(meaning, lanes=lanes, compiled=compiled)
 
 
-def source_with(problem, written_out, details=DETAILS):
-    return kernel_source(problem.meaning, problem.tables, problem.lanes, details, written_out)
+def source_with(problem, written_out, details=DETAILS, elements=MOST_ELEMENTS_WRITTEN_OUT):
+    return kernel_source(problem.meaning, problem.tables, problem.lanes, details, written_out, elements)
 
 
-def with_loops(problem, written_out=1):
-    """The same problem with a kernel that writes at most so many robots out."""
+def with_loops(problem, written_out=1, elements=MOST_ELEMENTS_WRITTEN_OUT):
+    """The same problem with a kernel that writes at most so many robots out, and elements of a list."""
     other = replace(problem)
-    other.__dict__["kernels"] = replace(problem.kernels, most_written_out=written_out)
+    kernels = replace(problem.kernels, most_written_out=written_out, most_elements=elements)
+    other.__dict__["kernels"] = kernels
     return other
 
 
@@ -75,3 +77,13 @@ def assert_loops_change_no_bit(problem, *, looped=True, **wanted):
     """Whoever reads a robot's values, and in whichever loop; `looped` says whether there should be loops at all."""
     assert ("for robot in range(" in source_with(problem, 1)) is looped
     assert bits(with_loops(problem, 1), **wanted) == bits(with_loops(problem, 100), **wanted)
+
+
+def assert_arrays_change_no_bit(problem, *, robots=100, kept=None, **wanted):
+    """However lists are read and set; `kept` names lists that arrays should keep."""
+    source = source_with(problem, robots, elements=1)
+    for name in kept or ():
+        assert f"{name} = part(" in source, f"{name} is not kept in an array"
+    arrays, written = with_loops(problem, robots, 1), with_loops(problem, robots, 1000)
+    assert bits(arrays, **wanted) == bits(written, **wanted)
+    return source

@@ -8,7 +8,7 @@ from bbsd.expression.kinds import Kind
 from bbsd.kernel import memory as kernel_memory
 
 LANES, ROBOTS = 4, 3
-SIZE = 100
+SIZE = 200
 
 
 @pytest.fixture
@@ -48,6 +48,29 @@ def test_every_element_is_apart(memory):
     assert [int(array[place]) for array, place in elements] == list(range(len(elements)))
     assert len(elements) == memory.size(LANES, ROBOTS) == memory.team_size(LANES) + len(scope["own_numbers"])
     assert (scope["numbers"][len(elements) :] == 0).all()
+
+
+def test_every_element_of_a_list_is_apart(memory):
+    memory.add("bins", Kind.NUMBER, own=False, length=5)
+    memory.add("marks", Kind.TRUTH, own=True, length=3)
+    memory.add("last", Kind.NUMBER, own=True)
+    assert (memory.length_of("bins"), memory.length_of("last")) == (5, 1)
+    scope = run([*memory.lines(LANES), *memory.own_lines(LANES, ROBOTS)])
+    team, own = (
+        {"wind": 1, "row": 1, "alarm": 1, "bins": 5},
+        {"x": 1, "armed": 1, "marks": 3, "last": 1, "cell": 1},
+    )
+    elements = [(scope[name], place) for name, length in team.items() for place in range(length * LANES)]
+    elements += [
+        (scope[name], robot * scope["stride"] + place)
+        for name, length in own.items()
+        for robot in range(ROBOTS)
+        for place in range(length * LANES)
+    ]
+    for number, (array, place) in enumerate(elements):
+        array[place] = number
+    assert [int(array[place]) for array, place in elements] == list(range(len(elements)))
+    assert memory.size(LANES, ROBOTS) == LANES + len(elements)
 
 
 def test_kinds_have_their_types(memory):
