@@ -41,7 +41,7 @@ from bbsd.kernel.functions import clamp_index
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from bbsd.language.meaning.episode import Episode
+    from bbsd.language.meaning.episode.episode import Episode
 
 MOST_ELEMENTS_WRITTEN_OUT = 12
 """Lists of up to so many elements have a variable for each, which runs as fast (decision 49, lists as arrays)."""
