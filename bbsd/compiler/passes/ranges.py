@@ -7,6 +7,7 @@ from math import exp, inf, isfinite, isnan
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.compiler.passes.outputs import with_slots_read
+from bbsd.expression import intervals
 from bbsd.expression.graph import needed, value_of
 from bbsd.kernel import functions
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from bbsd.expression.graph import Node
+    from bbsd.expression.intervals import Interval
     from bbsd.expression.node_data import Slot
     from bbsd.language.meaning import Meaning
 
@@ -33,6 +35,11 @@ class Range(NamedTuple):
     may_be_nan: bool = True
 
     @property
+    def bounds(self) -> Interval:
+        """Both bounds."""
+        return self.low, self.high
+
+    @property
     def is_known(self) -> bool:
         """Whether both bounds are finite."""
         return isfinite(self.low) and isfinite(self.high)
@@ -40,13 +47,11 @@ class Range(NamedTuple):
     @property
     def size(self) -> float:
         """The greatest magnitude."""
-        return max(abs(self.low), abs(self.high))
+        return intervals.size(self.bounds)
 
     def joined(self, other: Range) -> Range:
         """Return the range of what may lie in either."""
-        return Range(
-            min(self.low, other.low), max(self.high, other.high), self.may_be_nan or other.may_be_nan
-        )
+        return Range(*intervals.hull(self.bounds, other.bounds), self.may_be_nan or other.may_be_nan)
 
 
 ANYTHING = Range()
@@ -62,13 +67,7 @@ SURE: Mapping[str, Range] = {
     "wrap": Range(-4.0, 4.0),
     "cell_of": Range(0.0, 1.0, may_be_nan=False),
 }
-MONOTONE = {
-    "floor": functions.floor,
-    "ceil": functions.ceil,
-    "round_half_even": functions.round_half_even,
-    "degrees": functions.degrees,
-    "radians": functions.radians,
-}
+GROWING = {**intervals.GROWING, "round_half_even": functions.round_half_even}
 SLACK = 1.0 + 1e-9
 """By which a bound is moved where roundings add up."""
 
@@ -171,11 +170,7 @@ class _Ranges:
 
 def _without_moving(before: Range, after: Range) -> Range:
     """Return a range without the bounds that moved."""
-    return Range(
-        after.low if after.low == before.low else -inf,
-        after.high if after.high == before.high else inf,
-        after.may_be_nan,
-    )
+    return Range(*intervals.without_moving(before.bounds, after.bounds), after.may_be_nan)
 
 
 def _joined(ranges: Iterable[Range]) -> Range:
@@ -205,25 +200,25 @@ def _computed(node: Node, operands: Sequence[Range]) -> Range:
         case "select", (_, one, other):
             return one.joined(other)
         case "minimum", (one, other):  # the first where they do not compare
-            high = one.high if other.may_be_nan else min(one.high, other.high)
-            return Range(min(one.low, other.low), high, may_be_nan)
+            least = intervals.lesser(one.bounds, other.bounds)
+            return Range(*(intervals.hull(least, one.bounds) if other.may_be_nan else least), may_be_nan)
         case "maximum", (one, other):
-            low = one.low if other.may_be_nan else max(one.low, other.low)
-            return Range(low, max(one.high, other.high), may_be_nan)
+            most = intervals.greater(one.bounds, other.bounds)
+            return Range(*(intervals.hull(most, one.bounds) if other.may_be_nan else most), may_be_nan)
         case "negate", (one,):
-            return Range(-one.high, -one.low, may_be_nan)
+            return Range(*intervals.negated(one.bounds), may_be_nan)
         case "abs", (one,):
-            return Range(max(one.low, -one.high, 0.0), one.size, may_be_nan)
+            return Range(*intervals.magnitude(one.bounds), may_be_nan)
         case "modulo" | "quick_modulo", (_, divisor):
-            return Range(min(divisor.low, 0.0), max(divisor.high, 0.0))
+            return Range(*intervals.remainder(divisor.bounds))
         case "clamp_index", _:
             return Range(0.0, float(node.index), may_be_nan=False)
         case "sqrt", (one,) if one.high >= 0.0:
             return Range(0.0, functions.sqrt(one.high), may_be_nan or one.low < 0.0)
         case "exp", (one,):
             return Range(0.0, SLACK * exp(one.high) if one.high < 700.0 else inf, may_be_nan)
-    if node.operation in MONOTONE:
-        low, high = (MONOTONE[node.operation](bound) for bound in (operands[0].low, operands[0].high))
+    if node.operation in GROWING:
+        low, high = map(GROWING[node.operation], operands[0].bounds)
         return Range(low, high, may_be_nan)
     return _from_corners(node, operands, may_be_nan)
 
@@ -234,23 +229,24 @@ def _from_corners(node: Node, operands: Sequence[Range], may_be_nan: bool) -> Ra
         return ANYTHING
     match node.operation, operands:
         case "+", (one, other):
-            bounds = [one.low + other.low, one.high + other.high]
+            bounds = intervals.plus(one.bounds, other.bounds)
         case "-", (one, other):
-            bounds = [one.low - other.high, one.high - other.low]
+            bounds = intervals.minus(one.bounds, other.bounds)
         case "*", (one, other):
-            bounds = [a * b for a in one[:2] for b in other[:2]]
-        case (("divide" | "floor_divide"), (one, other)) if other.low > 0.0 or other.high < 0.0:
-            bounds = [functions.divide(a, b) for a in one[:2] for b in other[:2]]
-            if node.operation == "floor_divide":
-                bounds = [min(bounds) - 1.0, max(bounds)]
+            bounds = intervals.product(one.bounds, other.bounds)
+        case "divide", (one, other):
+            bounds = intervals.quotient(one.bounds, other.bounds)
+        case "floor_divide", (one, other):
+            low, high = intervals.quotient(one.bounds, other.bounds)
+            bounds = low - 1.0, high
         case "hypot", (one, other):
-            bounds = [0.0, SLACK * (one.size + other.size)]
+            bounds = 0.0, SLACK * (one.size + other.size)
         case "whole_power", (one,) if node.index >= 0:
             size = SLACK * functions.whole_power(one.size, node.index)
-            bounds = [-size, size]
+            bounds = -size, size
         case _:
             return ANYTHING
-    known = Range(min(bounds), max(bounds), may_be_nan)
+    known = Range(*bounds, may_be_nan)
     return known if known.is_known else ANYTHING
 
 

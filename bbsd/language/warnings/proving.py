@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.graph import needed, value_of
 from bbsd.expression.operations import COMPARISONS
 from bbsd.language.meaning.proofs.coverage import covers_everything
-from bbsd.language.warnings.intervals import Bounds
+from bbsd.language.warnings.bounds import Bounds
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node

@@ -13,8 +13,8 @@ from bbsd.compiler import compile_meaning
 from bbsd.compiler.details import traced_columns
 from bbsd.language.meaning import elaborate
 from bbsd.language.models import Spec
+from bbsd.language.warnings.bounds import Bounds
 from bbsd.language.warnings.finding import warnings_of
-from bbsd.language.warnings.intervals import Bounds
 from tests.interpreter.made_up import specs
 from tests.interpreter.made_up_designs import random_agents
 

@@ -1,19 +1,38 @@
 """Between which bounds values stay, as far as follows from how they are computed.
 
-A truth is a number here too: false is 0, true is 1. Values that are no numbers (NaN) are left out, as in other proofs.
+A truth is a number here too: false is 0, true is 1. Values that are no numbers (NaN) are left out, as in other proofs,
+and so are roundings.
 """
 
 from __future__ import annotations
 
 from functools import partial
-from math import ceil, floor, inf, isnan, pi, sqrt
+from math import inf, isnan, pi, sqrt
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import compute, needed, value_of
+from bbsd.expression.intervals import (
+    ALL,
+    GROWING,
+    Interval,
+    greater,
+    hull,
+    hull_of,
+    lesser,
+    magnitude,
+    minus,
+    negated,
+    plus,
+    product,
+    quotient,
+    remainder,
+    without_moving,
+)
 from bbsd.expression.kinds import Kind
 from bbsd.expression.operations import COMPARISONS
 from bbsd.expression.syntax.tree import functions_called, names_used
 from bbsd.expression.vocabulary import DRAWS
+from bbsd.kernel.functions import ceil, floor
 from bbsd.language.field_types import expressions_in
 from bbsd.language.meaning.naming.constants import GENERATION
 
@@ -25,14 +44,10 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Plain
     from bbsd.language.meaning.meaning import Meaning
 
-Interval = tuple[float, float]
-"""The least and the greatest value."""
-
-ALL: Interval = (-inf, inf)
 TRUTH: Interval = (0.0, 1.0)
 MOST_NODES = 6_000
 """Nodes of a step up to which bounds are looked for."""
-GROWING = 3
+STEPWISE = 3
 """Passes in which bounds may grow step by step, before one that still grows counts as unlimited."""
 MOST_PASSES = 12
 
@@ -74,11 +89,13 @@ class Bounds:
         then = dict(first)
         for number in range(MOST_PASSES):
             self._evaluate_again(order, slots, then)
-            grown = {slot: _hull(bounds, then[after[slot].number]) for slot, bounds in slots.items()}
+            grown = {slot: hull(bounds, then[after[slot].number]) for slot, bounds in slots.items()}
             if grown == slots:
-                return {slot: _hull(first[start[slot].number], then[after[slot].number]) for slot in slots}
+                return {slot: hull(first[start[slot].number], then[after[slot].number]) for slot in slots}
             slots = (
-                grown if number < GROWING else {slot: _widened(slots[slot], grown[slot]) for slot in slots}
+                grown
+                if number < STEPWISE
+                else {slot: without_moving(slots[slot], grown[slot]) for slot in slots}
             )
         return {}
 
@@ -116,11 +133,11 @@ class Bounds:
             case "constant":
                 return self._constants[node.index]
             case "gather":
-                return _hull_of([self._constants[place] for place in node.gather.places])
+                return hull_of([self._constants[place] for place in node.gather.places])
             case "step":
                 return (1.0, self._steps)
             case "draw" if node.draw.distribution in ("uniform", "integers"):
-                return _hull_of(operands)
+                return hull_of(operands)
         if operation in COMPARISONS:
             return TRUTH if self._is_switch(node) else _compared(operation, *operands)
         rule = RULES.get(operation)
@@ -161,18 +178,6 @@ def _of_kind(kind: Kind) -> Interval:
     return TRUTH if kind is Kind.TRUTH else ALL
 
 
-def _hull(one: Interval, other: Interval) -> Interval:
-    return min(one[0], other[0]), max(one[1], other[1])
-
-
-def _hull_of(intervals: Sequence[Interval]) -> Interval:
-    return min(low for low, _ in intervals), max(high for _, high in intervals)
-
-
-def _widened(before: Interval, grown: Interval) -> Interval:
-    return grown[0] if grown[0] == before[0] else -inf, grown[1] if grown[1] == before[1] else inf
-
-
 def _compared(operation: str, left: Interval, right: Interval) -> Interval:
     """Return the truths that a comparison may have."""
     below, above = left[1] < right[0], left[0] > right[1]
@@ -189,25 +194,13 @@ def _compared(operation: str, left: Interval, right: Interval) -> Interval:
     return (float(always), float(not never))
 
 
-def _product(_: Node, left: Interval, right: Interval) -> Interval:
-    found = [one * other for one in left for other in right]
-    return (min(found), max(found)) if not any(map(isnan, found)) else ALL
-
-
-def _quotient(_: Node, left: Interval, right: Interval) -> Interval:
-    if right[0] <= 0 <= right[1]:
-        return ALL
-    found = [one / other for one in left for other in right]
-    return (min(found), max(found)) if not any(map(isnan, found)) else ALL
-
-
-def _whole_quotient(node: Node, left: Interval, right: Interval) -> Interval:
-    low, high = _quotient(node, left, right)
-    return _floor(low), _floor(high)
+def _whole_quotient(_: Node, left: Interval, right: Interval) -> Interval:
+    low, high = quotient(left, right)
+    return floor(low), floor(high)
 
 
 def _remainder(_: Node, __: Interval, divisor: Interval) -> Interval:
-    return (0.0, divisor[1]) if divisor[0] > 0 else ALL
+    return remainder(divisor) if divisor[0] > 0 else ALL
 
 
 def _raised(node: Node, base: Interval) -> Interval:
@@ -220,24 +213,16 @@ def _raised(node: Node, base: Interval) -> Interval:
 
 
 def _chosen(_: Node, condition: Interval, then: Interval, otherwise: Interval) -> Interval:
-    return then if condition[0] else otherwise if not condition[1] else _hull(then, otherwise)
-
-
-def _magnitude(_: Node, value: Interval) -> Interval:
-    ends = [abs(bound) for bound in value]
-    return (0.0 if value[0] <= 0 <= value[1] else min(ends)), max(ends)
+    return then if condition[0] else otherwise if not condition[1] else hull(then, otherwise)
 
 
 def _clamped(node: Node, index: Interval, last: Interval | None = None) -> Interval:
     most = float(node.index) if last is None else last[1]
-    return min(max(_floor(index[0]), 0.0), most), min(max(_ceil(index[1]), 0.0), most)
+    return min(max(floor(index[0]), 0.0), most), min(max(ceil(index[1]), 0.0), most)
 
 
-def _growing(operation: str, low: float, high: float, _: Node, value: Interval) -> Interval:
-    """Return the bounds of a function that grows, of values from `low` to `high`."""
-    if value[0] < low or value[1] > high:
-        return ALL
-    return float(compute(operation, [value[0]])), float(compute(operation, [value[1]]))
+def _growing(operation: str, _: Node, value: Interval) -> Interval:
+    return GROWING[operation](value[0]), GROWING[operation](value[1])
 
 
 def _root(_: Node, value: Interval) -> Interval:
@@ -248,32 +233,29 @@ def _within(low: float, high: float, *_: object) -> Interval:
     return low, high
 
 
-def _floor(bound: float) -> float:
-    return bound if abs(bound) == inf else float(floor(bound))
-
-
-def _ceil(bound: float) -> float:
-    return bound if abs(bound) == inf else float(ceil(bound))
+def _of(rule: Callable[..., Interval], _: Node, *operands: Interval) -> Interval:
+    """Return the bounds by a rule that needs the operands' alone."""
+    return rule(*operands)
 
 
 RULES: Mapping[str, Callable[..., Interval]] = {
-    "+": lambda _, left, right: (left[0] + right[0], left[1] + right[1]),
-    "-": lambda _, left, right: (left[0] - right[1], left[1] - right[0]),
-    "*": _product,
-    "negate": lambda _, value: (-value[1], -value[0]),
-    "divide": _quotient,
+    "+": partial(_of, plus),
+    "-": partial(_of, minus),
+    "*": partial(_of, product),
+    "negate": partial(_of, negated),
+    "divide": partial(_of, quotient),
     "floor_divide": _whole_quotient,
     "modulo": _remainder,
     "whole_power": _raised,
-    "minimum": lambda _, left, right: (min(left[0], right[0]), min(left[1], right[1])),
-    "maximum": lambda _, left, right: (max(left[0], right[0]), max(left[1], right[1])),
+    "minimum": partial(_of, lesser),
+    "maximum": partial(_of, greater),
     "select": _chosen,
-    "&": lambda _, left, right: (min(left[0], right[0]), min(left[1], right[1])),
-    "|": lambda _, left, right: (max(left[0], right[0]), max(left[1], right[1])),
+    "&": partial(_of, lesser),
+    "|": partial(_of, greater),
     "not": lambda _, truth: (1.0 - truth[1], 1.0 - truth[0]),
     "cell_of": lambda _, truth: truth,
     "clamp_index": _clamped,
-    "abs": _magnitude,
+    "abs": partial(_of, magnitude),
     "sqrt": _root,
     "hypot": partial(_within, 0.0, inf),
     "sin": partial(_within, -1.0, 1.0),
@@ -286,10 +268,7 @@ RULES: Mapping[str, Callable[..., Interval]] = {
     "atan2": partial(_within, -pi, pi),
     "wrap": partial(_within, -pi, pi),
     "sign": partial(_within, -1.0, 1.0),
-    "floor": lambda _, value: (_floor(value[0]), _floor(value[1])),
-    "ceil": lambda _, value: (_ceil(value[0]), _ceil(value[1])),
-    "round_half_even": lambda _, value: (_floor(value[0]), _ceil(value[1])),
-    "degrees": partial(_growing, "degrees", -inf, inf),
-    "radians": partial(_growing, "radians", -inf, inf),
+    "round_half_even": lambda _, value: (floor(value[0]), ceil(value[1])),
+    **{operation: partial(_growing, operation) for operation in GROWING},
 }
 """How the bounds of an operation follow from those of its operands; of all others nothing is known."""

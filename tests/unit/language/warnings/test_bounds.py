@@ -5,7 +5,7 @@ from math import inf, pi
 import pytest
 
 from bbsd.expression.node_data import Slot
-from bbsd.language.warnings.intervals import Bounds
+from bbsd.language.warnings.bounds import Bounds
 from tests.unit.language.specs import meaning_of
 
 ACTIONS = "halt: {speed: 0}, push: {speed: 'clip(speed + 1, 0, top)'}"
