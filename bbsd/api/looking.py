@@ -18,7 +18,7 @@ from bbsd.environments.spaces.pasting import environment_text
 from bbsd.errors import UsageError
 from bbsd.language.lineage import read_lineage
 from bbsd.language.loading import Loaded
-from bbsd.language.outside import EXAMPLES, OUTSIDE_KINDS, TARGETS, Outside
+from bbsd.language.outside import EXAMPLES, OUTSIDE_KINDS, Outside, is_target
 from bbsd.language.overrides import read_overrides, with_overrides
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ def _outside(block: Mapping[str, Data]) -> Outside:
         found = " and ".join(kinds) or "none"
         raise NoEnvironment(f"environment must name one of {', '.join(OUTSIDE_KINDS)}, and there is {found}")
     kind, target, arguments = kinds[0], block[kinds[0]], block.get("with") or {}
-    if not isinstance(target, str) or not TARGETS[kind].fullmatch(target):
+    if not isinstance(target, str) or not is_target(kind, target):
         error = NoEnvironment(f"{target!r} cannot be the name of an environment")
         error.advice = f"write {EXAMPLES[kind]}"
         raise error

@@ -1,6 +1,5 @@
 """Diagnoses of a spec: where a mistake is, what it is, what to do about it, and how that is shown."""
 
-from bbsd.errors.catalog import KINDS, describe
 from bbsd.errors.correction import Correction, Edit, Lines
 from bbsd.errors.diagnosis import Diagnosis, Place, SpecError
 from bbsd.errors.inert import inert, inert_cell, inert_json
@@ -10,7 +9,6 @@ from bbsd.errors.suggestion import did_you_mean, nearest
 from bbsd.errors.usage import UsageError
 
 __all__ = [
-    "KINDS",
     "Correction",
     "Diagnosis",
     "DiagnosisKind",
@@ -21,7 +19,6 @@ __all__ = [
     "SpecError",
     "UsageError",
     "character_name",
-    "describe",
     "did_you_mean",
     "escape",
     "inert",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from bbsd.errors.catalog import severity_of
 from bbsd.errors.correction import CorrectedLine, corrected_lines
 from bbsd.errors.kinds.kind import Severity
 
@@ -37,6 +36,8 @@ class Diagnosis:
     @property
     def severity(self) -> Severity:
         """The severity that the catalog gives the code's kind: a mistake or a warning."""
+        from bbsd.errors.catalog import severity_of
+
         return severity_of(self.code)
 
 

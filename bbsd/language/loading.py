@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.errors import Diagnosis, Severity, SpecError
-from bbsd.errors.catalog import severity_of
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
 
     from bbsd.errors import Place
     from bbsd.expression.scope import Path
+    from bbsd.expression.syntax.mistakes import Mistake
     from bbsd.language.lineage import Lineage
     from bbsd.language.models import Spec
     from bbsd.language.overrides import Override
@@ -158,12 +158,18 @@ def _examine(data: dict[str, Data], files: Lineage, seed: int, *, is_small: bool
         spec, errors = validate(reading.data)
     if spec:
         further = elaborate(spec, seed)[1]
-        mistakes = [each for each in further if severity_of(each[1].code) is Severity.MISTAKE]
+        mistakes = [each for each in further if _is_mistake(each[1])]
     else:
         mistakes = form_mistakes(errors, reading.data)
         mistakes += _mistakes_of_meaning(reading.data, errors, seed) if is_small else []
     elsewhere = ((reading.origin(path), mistake) for path, mistake in mistakes)
     return _Examined(None, (*reading.told, *elsewhere), frozenset(reading.explained))
+
+
+def _is_mistake(found: Mistake) -> bool:
+    from bbsd.errors.catalog import severity_of
+
+    return severity_of(found.code) is Severity.MISTAKE
 
 
 def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) -> list[LocatedMistake]:
@@ -177,7 +183,7 @@ def _mistakes_of_meaning(data: Data, errors: Sequence[ErrorDetails], seed: int) 
     return [
         (path, mistake)
         for path, mistake in found
-        if mistake.code not in recovered.dependent and severity_of(mistake.code) is Severity.MISTAKE
+        if mistake.code not in recovered.dependent and _is_mistake(mistake)
     ]
 
 

@@ -73,10 +73,10 @@ class Outside(NamedTuple):
 
 IDENTIFIER = r"[A-Za-z_]\w*"
 MODULE = rf"{IDENTIFIER}(?:\.{IDENTIFIER})*"
-TARGETS: Mapping[OutsideKind, re.Pattern[str]] = {
-    "gymnasium": re.compile(rf"(?:{MODULE}:)?(?:[\w-]+/)?[\w.-]*\w-v\d+", re.ASCII),
-    "pettingzoo": re.compile(rf"{MODULE}\.{IDENTIFIER}_v\d+", re.ASCII),
-    "python": re.compile(rf"{MODULE}:{IDENTIFIER}", re.ASCII),
+TARGETS: Mapping[OutsideKind, str] = {
+    "gymnasium": rf"(?:{MODULE}:)?(?:[\w-]+/)?[\w.-]*\w-v\d+",
+    "pettingzoo": rf"{MODULE}\.{IDENTIFIER}_v\d+",
+    "python": rf"{MODULE}:{IDENTIFIER}",
 }
 """What the names of environments look like."""
 EXAMPLES: Mapping[OutsideKind, str] = {
@@ -84,18 +84,25 @@ EXAMPLES: Mapping[OutsideKind, str] = {
     "pettingzoo": "mpe2.simple_spread_v3, the module and in it the environment with its version",
     "python": "my_module:Arena, the module and in it the class",
 }
+
+
+def is_target(kind: OutsideKind, name: str) -> bool:
+    """Return whether an environment of a kind may have such a name."""
+    return re.fullmatch(TARGETS[kind], name, re.ASCII) is not None
+
+
 KEY_IN_PATH = r"[^.,\[\]\s][^.,\[\]]*"
 INDICES_IN_PATH = r"\[\s*\d{1,9}(?:\s*,\s*\d{1,9})*\s*\]"
-PATH = re.compile(rf"(?:{KEY_IN_PATH}|{INDICES_IN_PATH})(?:\.{KEY_IN_PATH}|{INDICES_IN_PATH})*", re.ASCII)
-SEGMENT = re.compile(r"\.?(?P<key>[^.,\[\]]+)|\[(?P<indices>[^\]]*)\]")
+PATH = rf"(?:{KEY_IN_PATH}|{INDICES_IN_PATH})(?:\.{KEY_IN_PATH}|{INDICES_IN_PATH})*"
+SEGMENT = r"\.?(?P<key>[^.,\[\]]+)|\[(?P<indices>[^\]]*)\]"
 
 
 def read_path(text: str) -> ObservationPath | None:
     """Return the path that `image[3,5,0]` is: ("image", 3, 5, 0); None for a text that is no path."""
-    if not PATH.fullmatch(text):
+    if not re.fullmatch(PATH, text, re.ASCII):
         return None
     path: list[str | int] = []
-    for segment in SEGMENT.finditer(text):
+    for segment in re.finditer(SEGMENT, text):
         path += (
             [segment["key"].strip()]
             if segment["key"]
@@ -133,12 +140,12 @@ def _meant(kind: OutsideKind, value: str) -> str:
         text = called[1]
     else:
         text = f"{value}-v1" if kind == "gymnasium" else f"{value}_v1"
-    return text if TARGETS[kind].fullmatch(text) else ""
+    return text if is_target(kind, text) else ""
 
 
 def _target(kind: OutsideKind) -> BeforeValidator:
     def checked(value: object) -> object:
-        if value is None or (isinstance(value, str) and TARGETS[kind].fullmatch(value)):
+        if value is None or (isinstance(value, str) and is_target(kind, value)):
             return value
         what = f'"{value}"' if isinstance(value, str) else kind_of(value)
         advice, correction = f"write {EXAMPLES[kind]}", None

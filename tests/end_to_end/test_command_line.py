@@ -17,6 +17,22 @@ from tests.end_to_end.commands import bbsd, process
 
 SPEC = Path(__file__).parent / "specs" / "thermostat.yaml"
 HEAVY = ("numba", "numpy", "pydantic", "yaml", "rich", "matplotlib")
+LATE = (
+    "bbsd.api.results",
+    "bbsd.cli.designing",
+    "bbsd.compiler",
+    "bbsd.errors.catalog",
+    "bbsd.evaluation",
+    "bbsd.language.meant",
+    "bbsd.language.overrides",
+    "bbsd.language.recovery",
+    "bbsd.report.plain",
+    "bbsd.runs.storage",
+    "bbsd.solver",
+    "bbsd.text.reading.syntax",
+    "bbsd.text.writing",
+)
+"""What a check of a spec without mistakes does without."""
 COMMANDS = ("design", "evaluate", "explain", "why", "check", "config", "compile")
 
 
@@ -29,6 +45,13 @@ def designed(tmp_path_factory):
 
 def keys(text):
     return list(json.loads(text))
+
+
+def modules_imported(*words):
+    """Return the names of all modules that a command imports, in a process of its own."""
+    command = [sys.executable, "-X", "importtime", "-m", "bbsd", *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
 
 
 def test_help_lists_the_commands():
@@ -44,11 +67,25 @@ def test_help_lists_the_commands():
 )
 def test_help_imports_nothing_heavy(words, heavy):
     """But for pydantic, which typer itself needs for a command's options."""
-    command = [sys.executable, "-X", "importtime", "-m", "bbsd", *words]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    imported = {line.rpartition("|")[2].strip().partition(".")[0] for line in done.stderr.splitlines()}
+    imported = modules_imported(*words)
     assert "bbsd" in imported
-    assert not imported & {*heavy}
+    assert not {name.partition(".")[0] for name in imported} & {*heavy}
+
+
+def test_help_imports_neither_commands_nor_the_language():
+    packages = {".".join(name.split(".")[:2]) for name in modules_imported("--help")}
+    assert {each for each in packages if each.startswith("bbsd.")} <= {
+        "bbsd.cli",
+        "bbsd.errors",
+        "bbsd.version",
+    }
+
+
+def test_a_check_imports_only_what_it_uses():
+    imported = modules_imported("check", SPEC)
+    assert "bbsd.language.warnings.finding" in imported
+    assert not {name.partition(".")[0] for name in imported} & ({*HEAVY} - {"pydantic", "yaml"})
+    assert not {name for name in imported if name.startswith(LATE)}
 
 
 def test_the_version_is_the_package_s():

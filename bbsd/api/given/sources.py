@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 from bbsd.api.given.arguments import BadArgument
 from bbsd.language.loading import Loaded
-from bbsd.runs.storage.finished import ARCHITECTURE, design_file
 from bbsd.text import Source, read
 
 if TYPE_CHECKING:
@@ -39,7 +38,12 @@ def source_of(spec: AnySpec) -> Source:
         return Source.given(TEXT, spec)
     if _is_designed(spec):
         return Source(TEXT if spec.written is None else str(spec.architecture), spec.text)
-    return Source.read(design_file(path_of(spec)))
+    path = path_of(spec)
+    if path.is_dir():
+        from bbsd.runs.storage.finished import design_file
+
+        path = design_file(path)
+    return Source.read(path)
 
 
 def path_of(spec: object) -> Path:
@@ -58,6 +62,8 @@ def run_of(spec: AnySpec) -> Path | None:
         return spec.written
     if not is_path(spec):
         return None
+    from bbsd.runs.storage.finished import ARCHITECTURE
+
     path = path_of(spec)
     return path if path.is_dir() else path.parent if path.name == ARCHITECTURE else None
 

@@ -42,9 +42,9 @@ MEANT = {
     "plot": "report",
 }
 """What commands are called elsewhere, and here."""
-NO_INTEGER = re.compile(r"Input should be a valid integer")
-NO_CHOICE = re.compile(r"(?:Value error, )?'(?P<given>.*)' is not one of (?P<choices>'.*')\.?$")
-EXTRA = re.compile(r"Got unexpected extra argument(?:s|\(s\))? \((?P<words>=.*)\)$")
+NO_INTEGER = "Input should be a valid integer"
+NO_CHOICE = r"(?:Value error, )?'(?P<given>.*)' is not one of (?P<choices>'.*')\.?$"
+EXTRA = r"Got unexpected extra argument(?:s|\(s\))? \((?P<words>=.*)\)$"
 WORDS = "bbsd.words"
 NotUnderstood = cast("type[Exception]", typer.BadParameter.__mro__[1])
 """Typer's error of a command line, which it does not export."""
@@ -116,11 +116,11 @@ def _explain(error: Any, words: list[str], commands: Any) -> None:  # noqa: ANN4
     if option is not None and option in words:
         error.message = _unknown_option(option, words, commands)
         error.possibilities = None
-    elif match := EXTRA.search(message):
+    elif match := re.search(EXTRA, message):
         error.message = _spaces(match["words"].split(), words)
-    elif NO_INTEGER.search(message):
+    elif NO_INTEGER in message:
         error.message = "it must be a whole number"
-    elif match := NO_CHOICE.search(message):
+    elif match := re.search(NO_CHOICE, message):
         choices = [choice.strip("' ") for choice in match["choices"].split(",")]
         given = match["given"]
         near = next((each for each in choices if given.startswith(each)), "") or nearest(given, choices)

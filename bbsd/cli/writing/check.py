@@ -10,7 +10,7 @@ import typer
 from bbsd.cli.options import AsJson, spec_files
 from bbsd.cli.terminal.mistakes import MISTAKE
 from bbsd.cli.terminal.output import diff_text, has_color, say, show, show_commands
-from bbsd.errors import KINDS, SpecError, describe, did_you_mean
+from bbsd.errors import SpecError, did_you_mean
 
 if TYPE_CHECKING:
     from bbsd.language.fixing import Made
@@ -152,6 +152,8 @@ def _fixed(spec: Path, fixing: Fixing) -> "tuple[Source, tuple[Made, ...]]":
 
 
 def _description(code: str) -> str:
+    from bbsd.errors.catalog import KINDS, describe
+
     try:
         kind = describe(code)
     except KeyError:

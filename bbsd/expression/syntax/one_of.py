@@ -15,10 +15,8 @@ if TYPE_CHECKING:
     from bbsd.expression.syntax.tree import Expr
 
 BEGINNING = re.compile(r"\s*one\s+of\b")
-WHOLE = re.compile(
-    r"\s*one\s+of\s*\[(?P<names>[^\[\]]*)\](?:\s*,?\s*starting\b\s*(?P<start>.*\S)?)?\s*", re.DOTALL
-)
-AT_RANDOM = re.compile(r"at\s+random\Z")
+WHOLE = r"\s*one\s+of\s*\[(?P<names>[^\[\]]*)\](?:\s*,?\s*starting\b\s*(?P<start>.*\S)?)?\s*"
+AT_RANDOM = r"at\s+random\Z"
 NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
 EXAMPLE = "one of [idle, search, home]"
 
@@ -33,7 +31,7 @@ def read_one_of(text: str, parse: Callable[[str], Expr]) -> OneOf:
 
     Raises ExpressionError for what is wrong with it.
     """
-    match = WHOLE.fullmatch(text)
+    match = re.fullmatch(WHOLE, text, re.DOTALL)
     if match is None:
         advice = f"write {EXAMPLE}, or {EXAMPLE} starting home"
         raise _error("names in brackets come after one of", 0, len(text), advice)
@@ -44,7 +42,7 @@ def read_one_of(text: str, parse: Callable[[str], Expr]) -> OneOf:
         raise _error(
             "what it is at first is missing after starting", 0, len(text), f"write {EXAMPLE} starting home"
         )
-    if start is None or AT_RANDOM.match(start):
+    if start is None or re.match(AT_RANDOM, start):
         return OneOf(names, None, start is not None, span)
     try:
         tree = parse(start)

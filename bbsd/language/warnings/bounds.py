@@ -84,9 +84,10 @@ class Bounds:
     ) -> Mapping[Slot, Interval]:
         """Return bounds of all slots that hold at the start and, where they hold, after the next step."""
         first: dict[int, Interval] = {}
-        self._evaluate(order, {}, first)
+        self._evaluate(needed(start.values()), {}, first)
         slots = {slot: first[node.number] for slot, node in start.items()}
-        then = dict(first)
+        then: dict[int, Interval] = {}
+        self._evaluate(order, slots, then)
         for number in range(MOST_PASSES):
             self._evaluate_again(order, slots, then)
             grown = {slot: hull(bounds, then[after[slot].number]) for slot, bounds in slots.items()}
@@ -141,10 +142,10 @@ class Bounds:
         if operation in COMPARISONS:
             return TRUTH if self._is_switch(node) else _compared(operation, *operands)
         rule = RULES.get(operation)
-        if rule is None or any(isnan(bound) for interval in operands for bound in interval):
+        if rule is None or any(map(_is_unknown, operands)):
             return _of_kind(node.kind)
         found = rule(node, *operands)
-        return _of_kind(node.kind) if any(map(isnan, found)) else found
+        return _of_kind(node.kind) if _is_unknown(found) else found
 
     def _is_switch(self, node: Node) -> bool:
         return self._fixed[node.number] and node.number not in self._at_start
@@ -172,6 +173,10 @@ def _constants(meaning: Meaning) -> list[Interval]:
 
 def _scalars(value: Plain) -> list[Node]:
     return [node for item in value for node in _scalars(item)] if isinstance(value, tuple) else [value]
+
+
+def _is_unknown(interval: Interval) -> bool:
+    return isnan(interval[0]) or isnan(interval[1])
 
 
 def _of_kind(kind: Kind) -> Interval:

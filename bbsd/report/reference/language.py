@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 
 from pydantic_core import PydanticUndefined
 
-from bbsd.errors import KINDS, Severity
+from bbsd.errors import Severity
+from bbsd.errors.catalog import KINDS
 from bbsd.expression.reserved import RESERVED, Use
 from bbsd.expression.vocabulary import AGGREGATES, DRAWS, FUNCTIONS
 from bbsd.language import design, models, outside, view

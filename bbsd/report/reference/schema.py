@@ -257,7 +257,7 @@ OBSERVED_SCHEMA: Schema = {
 
 
 def _target_schema(kind: outside.OutsideKind) -> Schema:
-    return {"type": "string", "pattern": f"^{outside.TARGETS[kind].pattern}$"}
+    return {"type": "string", "pattern": f"^{outside.TARGETS[kind]}$"}
 
 
 KEY_SCHEMAS: Mapping[tuple[type[Part], str], Schema] = {

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from bbsd.errors import KINDS
+from bbsd.errors.catalog import KINDS
 from bbsd.report.spec.github import message_text
 from bbsd.version import __version__
 

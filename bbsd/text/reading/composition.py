@@ -13,7 +13,6 @@ from bbsd.text.core_schema import is_text, meaning
 from bbsd.text.nodes import Alias, Mapping, Node, Scalar, Sequence
 from bbsd.text.reading.events import Event, events
 from bbsd.text.reading.mapping_keys import entries_of
-from bbsd.text.reading.syntax import explain_syntax_error
 from bbsd.text.reading.traps import NOTHING, Piece, comma_mistakes, empty_block_mistake, glued, join_at_commas
 from bbsd.text.source import MAX_BYTES
 
@@ -88,6 +87,8 @@ def compose(source: Source) -> tuple[Mapping | None, list[Diagnosis]]:
     except _RefusedError as refused:
         return None, [*reading.mistakes, refused.diagnosis]
     except MarkedYAMLError as error:
+        from bbsd.text.reading.syntax import explain_syntax_error
+
         last = _too_deep(source, error) or explain_syntax_error(source, error)
         return None, [*(mistake for mistake in reading.mistakes if not _same_start(mistake, last)), last]
 

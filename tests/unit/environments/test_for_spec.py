@@ -4,7 +4,8 @@ import pytest
 
 from bbsd.environments.for_spec import closed_folders, opened_for, settings
 from bbsd.environments.importing.consent import consent
-from bbsd.errors import KINDS, SpecError
+from bbsd.errors import SpecError
+from bbsd.errors.catalog import KINDS
 from bbsd.errors.kinds.environment import ENVIRONMENT_KINDS
 from bbsd.language.lineage import overlay
 from bbsd.language.loading import load

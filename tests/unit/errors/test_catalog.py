@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from bbsd.errors import KINDS, DiagnosisKind, Severity, describe, kinds
-from bbsd.errors.catalog import in_order_of_codes
+from bbsd.errors import DiagnosisKind, Severity, kinds
+from bbsd.errors.catalog import KINDS, describe, in_order_of_codes
 from bbsd.errors.kinds import kind
 
 FILES = sorted({*Path(kinds.__file__).parent.glob("*.py")} - {Path(kinds.__file__), Path(kind.__file__)})

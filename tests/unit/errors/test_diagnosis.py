@@ -2,7 +2,8 @@ import pickle
 
 import pytest
 
-from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity, SpecError
+from bbsd.errors import Diagnosis, DiagnosisKind, Place, Severity, SpecError
+from bbsd.errors.catalog import KINDS
 from bbsd.text import Source
 
 MISTAKES = (

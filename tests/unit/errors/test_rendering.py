@@ -2,7 +2,8 @@ import json
 
 import pytest
 
-from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity, escape, render_json, render_text
+from bbsd.errors import Diagnosis, DiagnosisKind, Place, Severity, escape, render_json, render_text
+from bbsd.errors.catalog import KINDS
 
 UNEXPECTED = Diagnosis(
     "BB012",

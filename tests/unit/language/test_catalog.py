@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import bbsd
-from bbsd.errors import KINDS, Diagnosis, SpecError
+from bbsd.errors import Diagnosis, SpecError
+from bbsd.errors.catalog import KINDS
 from bbsd.errors.kinds.environment import ENVIRONMENT_KINDS
 from bbsd.errors.kinds.warnings import WARNING_KINDS
 from bbsd.expression import graph

@@ -1,6 +1,6 @@
 import pytest
 
-from bbsd.errors import KINDS
+from bbsd.errors.catalog import KINDS
 from bbsd.language.base import Part
 from bbsd.language.view import View
 from bbsd.report.reference.language import (

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from bbsd.errors import KINDS, Diagnosis, DiagnosisKind, Place, Severity
+from bbsd.errors import Diagnosis, DiagnosisKind, Place, Severity
+from bbsd.errors.catalog import KINDS
 from bbsd.report.spec.github import github_text
 
 

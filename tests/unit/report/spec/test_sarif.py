@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from bbsd.errors import KINDS, Correction, Diagnosis, DiagnosisKind, Edit, Place, Severity
+from bbsd.errors import Correction, Diagnosis, DiagnosisKind, Edit, Place, Severity
+from bbsd.errors.catalog import KINDS
 from bbsd.report.spec import sarif
 from bbsd.report.spec.sarif import sarif_log
 

@@ -1,6 +1,7 @@
 import pytest
 
-from bbsd.errors import KINDS, Diagnosis
+from bbsd.errors import Diagnosis
+from bbsd.errors.catalog import KINDS
 from bbsd.text import Source, read
 
 
