@@ -1,7 +1,8 @@
 """What a robot that carries a design must be given, and keep from step to step, so that it can decide for itself."""
 
+from bbsd.architecture.needs.analysis import needs_of
 from bbsd.architecture.needs.naming import ACTED, BEFORE, plain_name, plain_variable
-from bbsd.architecture.needs.needs import Given, Needs, NotMeasured, NotRemembered, RobotNeeds, needs_of
+from bbsd.architecture.needs.needs import Given, Needs, NotMeasured, NotRemembered, RobotNeeds
 
 __all__ = [
     "ACTED",
