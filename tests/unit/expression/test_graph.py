@@ -14,7 +14,6 @@ from bbsd.expression.graph import (
     evaluate,
     needed,
     replace_leaves,
-    whole_nodes,
 )
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
@@ -96,18 +95,6 @@ def test_a_deep_graph_is_no_deep_recursion() -> None:
     graph = Graph()
     total = graph.fold("+", [slot(graph, str(place)) for place in range(5000)])
     assert evaluate([total], lambda _node, _operands: 1.0) == [5000.0]
-
-
-@pytest.mark.parametrize(
-    ("operation", "operands", "data", "whole"),
-    [("+", "nn", None, True), ("+", "nx", None, False), ("divide", "nn", None, False), ("floor", "x", None, True),
-     ("round_half_even", "x", None, True), ("negate", "n", None, True), ("minimum", "nn", None, True),
-     ("whole_power", "n", 2, True), ("whole_power", "n", -1, False), ("sqrt", "n", None, False)],
-)  # fmt: skip
-def test_whole_numbers_are_inferred(operation: str, operands: str, data: int | None, whole: bool) -> None:
-    graph = Graph()
-    node = graph.apply(operation, *(slot(graph, name) for name in operands), data=data)
-    assert whole_nodes([node], {Slot("n"): True, Slot("x"): False}, lambda _: False)[node.number] is whole
 
 
 def test_a_graph_has_a_largest_size(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,11 +17,11 @@ from bbsd.expression.graph import (
     needed,
     replace_leaves,
     value_of,
-    whole_nodes,
 )
 from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Binding, Findings, Named, Path, Plain, Scope, Shared, Unusable, Value
+from bbsd.expression.whole_numbers import whole_nodes
 from bbsd.kernel import streams
 from bbsd.language.field_types import expressions_in
 from bbsd.language.meaning.naming.order import dependency_order, names_used_in, uses_among

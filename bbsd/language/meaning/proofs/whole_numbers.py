@@ -5,9 +5,10 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Protocol
 
-from bbsd.expression.graph import needed, whole_nodes
+from bbsd.expression.graph import needed
 from bbsd.expression.kinds import Kind
 from bbsd.expression.syntax.mistakes import Enclosing
+from bbsd.expression.whole_numbers import whole_nodes
 from bbsd.language.meaning.naming.constants import GENERATION_SLOT
 
 if TYPE_CHECKING:
