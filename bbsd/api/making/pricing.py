@@ -73,4 +73,5 @@ def price(
     )
     problem = problem_with_holes(loaded, opened, lanes)
     with located_reward_errors(loaded):
-        return price_of(problem, settings_of(problem.meaning), seed, runs, jobs, starting)
+        own_limit = None if opened is None else opened.making.most_steps
+        return price_of(problem, settings_of(problem.meaning), seed, runs, jobs, starting, own_limit)

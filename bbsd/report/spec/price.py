@@ -28,10 +28,21 @@ def price_text(price: Price) -> str:
         "steps": f"{price.steps:,} at most, counted for each robot",
         "memory": f"about {price.bytes / 1e6:,.0f} MB",
         "compiling": _compiling(price),
-        "time": f"about {duration(price.seconds)}: {price.microseconds:.1f} µs per episode, "
+        "time": f"{_time(price)}: {price.microseconds:.1f} µs per episode, "
         f"{duration(price.starting + price.compiling)} to start, compile and draw",
     }
+    if price.sampled_length is not None and price.most_seconds > price.seconds:
+        rows["length"] = (
+            f"measured in episodes of {price.sampled_length:.4g} steps on average; the better designs get, the longer "
+            f"theirs may last, {price.most_length} steps at most, which is not known before"
+        )
     return "\n".join([*_tables(price), "", *(f"{name:<14}{text}" for name, text in rows.items())])
+
+
+def _time(price: Price) -> str:
+    """Return the time, from that of episodes as they were sampled to that of episodes of full length."""
+    least, most = duration(price.seconds), duration(price.most_seconds)
+    return f"about {least}" if least == most else f"about {least} to {most}"
 
 
 def _compiling(price: Price) -> str:

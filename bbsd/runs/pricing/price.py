@@ -75,34 +75,50 @@ class Price:
     microseconds: float
     """Microseconds of an agent's episode in a lifetime, learning included."""
     seconds: float
-    """Seconds of the whole, estimated."""
+    """Seconds of the whole, estimated by episodes as long as those that were sampled."""
+    most_seconds: float
+    """The same if every episode lasts as long as one can; more only where an environment is stepped in Python."""
+    sampled_length: float | None
+    """The mean length in steps of the episodes that were sampled, where time goes by steps."""
+    most_length: int
+    """How many steps an episode can last."""
     method: str = "paper"
 
 
 def price(
-    problem: Problem, settings: Settings, seed: int, n_runs: int, jobs: int = 1, starting: float = 0.0
+    problem: Problem,
+    settings: Settings,
+    seed: int,
+    n_runs: int,
+    jobs: int = 1,
+    starting: float = 0.0,
+    most_steps: int | None = None,
 ) -> Price:
     """Return the price of so many runs, from a sample of their episodes; write nothing.
 
-    Times are processor times, so that they do not depend on what else the machine does. With several jobs, runs go side
-    by side and threads share episodes.
+    `most_steps` is how long an environment's own limit lets an episode last. Times are processor times, so that they do
+    not depend on what else the machine does. With several jobs, runs go side by side and threads share episodes.
     """
     to_compile = problem.kernels.seconds_to_compile(practices=settings.method in PRACTISING)
+    environment = problem.meaning.spec.environment
+    most_length = min(environment.steps, most_steps or environment.steps)
     if settings.method != "paper":
-        return _price_of_search(problem, settings, seed, n_runs, jobs, starting, to_compile)
+        return _price_of_search(problem, settings, seed, n_runs, jobs, starting, to_compile, most_length)
     processes = min(n_runs, jobs)
     sampled = replace(problem, jobs=jobs // processes)
-    measured = sample(sampled, replace(settings, sharing="uniform"), fold(seed_key(seed), SAMPLE))
+    measured = sample(
+        sampled, replace(settings, sharing="uniform"), fold(seed_key(seed), SAMPLE), most_length
+    )
     generations, agents = settings.coevolution.generations, settings.coevolution.agents
     learning = generations * (_lifetimes(settings) + _differences(problem, settings))
     raced = _raced(settings)
     episode = measured.episode / measured.speedup
     rounds = -(-n_runs // processes)
-    run = generations * measured.generation(agents) + (learning + raced) * episode
     judged = _judged(problem, settings)
-    judging = judged * episode
+    living = (rounds * (learning + raced) + judged) * episode
+    breeding = rounds * generations * measured.generation(agents)
     drawing = (rounds * settings.coevolution.population + random_sample(problem)[0]) * measured.random_agent
-    environment = problem.meaning.spec.environment
+    beside = starting + measured.compiling + breeding + drawing
     episodes, further = n_runs * learning, n_runs * raced + judged
     return Price(
         tables=_tables(problem),
@@ -119,7 +135,10 @@ def price(
         breeding=measured.generation(agents),
         drawing=drawing,
         microseconds=measured.episode * 1e6,
-        seconds=starting + measured.compiling + rounds * run + judging + drawing,
+        seconds=beside + living,
+        most_seconds=beside + living * measured.longest,
+        sampled_length=measured.length,
+        most_length=most_length,
     )
 
 
@@ -131,17 +150,20 @@ def _price_of_search(
     jobs: int,
     starting: float,
     to_compile: float,
+    most_length: int,
 ) -> Price:
     """Return the price of so many searches, from the first rounds of one."""
     processes = min(n_runs, jobs)
     budget = settings.budget or automatic_budget(problem)
     sampled = replace(problem, jobs=jobs // processes)
-    measured = sample_search(sampled, settings, fold(seed_key(seed), SAMPLE), budget)
+    measured = sample_search(sampled, settings, fold(seed_key(seed), SAMPLE), budget, most_length)
     rounds = -(-n_runs // processes)
     n_agents, n_episodes = random_sample(problem)
     further = settings.answer.judged + n_agents * n_episodes
     episode = measured.episode / measured.speedup
     drawing = n_agents * measured.random_agent
+    living = (rounds * budget + further) * episode
+    beside = starting + measured.compiling + drawing
     environment = problem.meaning.spec.environment
     cells = sum(table.n_cells for table in problem.tables)
     return Price(
@@ -159,7 +181,10 @@ def _price_of_search(
         breeding=0.0,
         drawing=drawing,
         microseconds=measured.episode * 1e6,
-        seconds=starting + measured.compiling + (rounds * budget + further) * episode + drawing,
+        seconds=beside + living,
+        most_seconds=beside + living * measured.longest,
+        sampled_length=measured.length,
+        most_length=most_length,
         method=settings.method,
     )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.evaluation import detailed_outcomes
 from bbsd.kernel.keys import keys
+from bbsd.runs.pricing.counting import Counter
 from bbsd.runs.rehearsal import rehearse
 from bbsd.runs.searching import Course
 from bbsd.runs.storage import metrics
@@ -50,15 +51,23 @@ class Sample:
     """Of drawing a random agent's tables."""
     speedup: float
     """How many times faster episodes are in several threads."""
+    longest: float = 1.0
+    """How many times longer an episode takes that lasts as long as one can; 1 where that makes no difference."""
+    length: float | None = None
+    """The mean length in steps of the episodes that were sampled, where time goes by steps."""
 
     def generation(self, n_agents: int) -> float:
         """Return the seconds of a generation without its episodes."""
         return self.breeding + n_agents * self.agent
 
 
-def sample(problem: Problem, settings: Settings, key: int) -> Sample:
-    """Run generations as a run does, with more and more agents until they take long enough to be measured."""
-    jobs, problem = problem.jobs, _measurable(problem)
+def sample(problem: Problem, settings: Settings, key: int, most_steps: int) -> Sample:
+    """Run generations as a run does, with more and more agents until they take long enough to be measured.
+
+    `most_steps` is how long an episode can last.
+    """
+    jobs, counter = problem.jobs, Counter()
+    problem = _measurable(problem, counter)
     first, second = (_seconds(_all_kernels, problem, settings, key) for _ in range(2))
     state, _ = next_generation(
         initial_state(problem, settings, key), problem, settings.reduced(FEW, SHORT), key
@@ -74,6 +83,7 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     )
     while True:
         short, began = seconds(n_agents, SHORT), perf_counter()
+        counter.clear()
         long, clock = seconds(n_agents, lifetime), perf_counter() - began
         if long - short > LONG_ENOUGH or long > TOO_LONG:
             break
@@ -88,19 +98,26 @@ def sample(problem: Problem, settings: Settings, key: int) -> Sample:
     agent = max((short - breeding) / n_agents - episode, 0.0)
     speedup = jobs if problem.is_stepped else min(max(1.0, long / clock), jobs)
     random_agent = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
-    return Sample(max(0.0, first - second), breeding, agent, episode, random_agent, speedup)
+    longest, length = _length(counter, long, most_steps)
+    return Sample(max(0.0, first - second), breeding, agent, episode, random_agent, speedup, longest, length)
 
 
-def sample_search(problem: Problem, settings: Settings, key: int, budget: int) -> Sample:
-    """Run the first rounds of a search until they take long enough to be measured."""
-    jobs, problem = problem.jobs, _measurable(problem)
+def sample_search(problem: Problem, settings: Settings, key: int, budget: int, most_steps: int) -> Sample:
+    """Run the first rounds of a search until they take long enough to be measured.
+
+    `most_steps` is how long an episode can last.
+    """
+    jobs, counter = problem.jobs, Counter()
+    problem = _measurable(problem, counter)
     course = Course(problem, replace(settings, budget=budget), key, 0)
     first, second = (_seconds(_rehearse_judgement, problem, settings, key) for _ in range(2))
     search = course.method.begin(course.arena, course.stream, search_budget(budget))
+    counter.clear()
     began, clock = process_time(), perf_counter()
     while search.spent < search_budget(budget) and process_time() - began < LONG_ENOUGH:
         search = course.method.advance(search, course.arena, course.stream, search_budget(budget))
     taken, passed = process_time() - began, perf_counter() - clock
+    longest, length = _length(counter, taken, most_steps)
     random_agent = _seconds(random_agents, problem, key, SEVERAL) / SEVERAL
     return Sample(
         compiling=max(0.0, first - second),
@@ -109,15 +126,26 @@ def sample_search(problem: Problem, settings: Settings, key: int, budget: int) -
         episode=max(taken, LEAST) / max(search.spent, 1),
         random_agent=random_agent,
         speedup=jobs if problem.is_stepped else min(max(1.0, taken / passed), jobs),
+        longest=longest,
+        length=length,
     )
 
 
-def _measurable(problem: Problem) -> Problem:
+def _length(counter: Counter, seconds: float, most_steps: int) -> tuple[float, float | None]:
+    """Return how many times longer the longest episodes take than those that took so many seconds, and their length."""
+    if not counter.episodes:
+        return 1.0, None
+    return counter.stretched(seconds, most_steps) / max(seconds, LEAST), counter.length
+
+
+def _measurable(problem: Problem, counter: Counter) -> Problem:
     """Return the problem with all its work in this process: processor seconds of others are not known here.
 
-    Two processes stepped CartPole 1.94 times as fast as one.
+    Where an environment is stepped, steps are counted. Two processes stepped CartPole 1.94 times as fast as one.
     """
-    return replace(problem, jobs=1) if problem.is_stepped else problem
+    if not problem.is_stepped or problem.stepper is None:
+        return problem
+    return replace(problem, jobs=1, stepper=counter.counted(problem.stepper))
 
 
 def _rehearse_judgement(problem: Problem, settings: Settings, key: int) -> None:

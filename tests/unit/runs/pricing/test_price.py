@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -89,6 +90,8 @@ def test_it_is_shown_to_people_and_programs(price):
     text = price_text(price)
     assert f"{price.episodes:,} in the generations" in text
     assert all(table.behavior in text for table in price.tables)
+    assert price.most_seconds == price.seconds
+    assert "\nlength " not in text
 
 
 def test_what_compiling_takes_is_told_until_it_is_in_the_cache(tmp_path, monkeypatch):
@@ -110,5 +113,10 @@ def test_the_memory_of_all_processes_counts_where_python_steps_the_environment()
     problem = replace(problem_of(text), stepper=Corridor)
     settings = settings_of(problem.meaning)
     alone, both = (price_of(problem, settings, 0, 1, jobs) for jobs in (1, 2))
+    assert alone.most_seconds > alone.seconds
+    assert (alone.most_length, price_of(problem, settings, 0, 1, most_steps=7).most_length) == (9, 7)
+    text = price_text(replace(alone, seconds=7.0, most_seconds=36.0))
+    assert re.search(r"^time +about 7\.0 s to 36\.0 s: ", text, re.MULTILINE)
+    assert re.search(r"^length +measured in episodes of [\d.]+ steps.* 9 steps at most", text, re.MULTILINE)
     assert both.bytes > 1.5 * alone.bytes
     assert both.episodes == alone.episodes == 5000

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -16,10 +17,11 @@ def test_a_generation_is_what_is_bred_and_its_agents():
 
 @pytest.mark.parametrize("structure", ["", "structure: [even, odd]"])
 def test_all_that_a_generation_takes_is_measured(structure):
-    taken = sample(*guess(structure), key=1)
+    taken = sample(*guess(structure), key=1, most_steps=2)
     assert min(taken.breeding, taken.episode, taken.random_agent) > 0
     assert min(taken.compiling, taken.agent) >= 0
     assert taken.speedup == 1.0
+    assert (taken.longest, taken.length) == (1.0, None)
 
 
 @pytest.mark.slow
@@ -28,6 +30,9 @@ def test_of_steps_in_python_one_process_is_measured_and_all_are_counted(method):
     text = f"{CORRIDOR_OUTSIDE}\ndesign: {{method: {method}}}\n"
     problem = replace(problem_of(text, jobs=3), stepper=Corridor)
     settings = settings_of(problem.meaning)
-    taken = sample(problem, settings, 1) if method == "paper" else sample_search(problem, settings, 1, 5_000)
+    measure = {"paper": sample, "hill": partial(sample_search, budget=5_000)}[method]
+    taken = measure(problem, settings, 1, most_steps=90)
+    assert 1 < taken.length < 9
+    assert 5 < taken.longest < 90
     assert taken.speedup == 3
     assert taken.episode > 1e-5  # a step of nine in plain Python takes longer than a microsecond
