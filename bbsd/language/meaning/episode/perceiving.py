@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from bbsd.expression.graph import Level
@@ -10,14 +11,14 @@ from bbsd.expression.kinds import Kind
 from bbsd.expression.node_data import Slot
 from bbsd.expression.scope import Named
 from bbsd.kernel.streams import name_word
-from bbsd.language.meaning.moments import Moment, Sensed
-from bbsd.language.meaning.naming.names import read_slots, scalars_by_slot
-from bbsd.language.meaning.partitions import Partition, is_partition
+from bbsd.language.meaning.episode.stored import slots_of_sensors, stored_sensors
+from bbsd.language.meaning.moments import Moment
 
 if TYPE_CHECKING:
     from bbsd.expression.graph import Node
     from bbsd.expression.scope import Scope, Value
     from bbsd.language.meaning.naming.names import Names, Stored
+    from bbsd.language.meaning.partitions import Partition
 
 
 class SensorFault(NamedTuple):
@@ -62,30 +63,21 @@ class Perceived(Moment):
         known = (name, robot) in self.sensed.partitions
         partition = super().partition(name, robot)
         if name == self._fault.sensor and partition is not None and not known:
-            index = self._scalar(partition.index, Slot(perceived_name(name, self.names), robot))
+            index = self._scalar(partition.index, Slot(perceived_name(self.names, name), robot))
             partition = self.sensed.partitions[name, robot] = replace(partition, index=index)
         return partition
 
     def slots(self) -> dict[Slot, Node]:
         """Return all that is perceived, by the slots that keep it until the decision."""
-        nodes: dict[Slot, Node] = {}
-        for name, sensor in self.names.spec.environment.sensors.items():
-            own_name = perceived_name(name, self.names)
-            for robot in self.names.robots:
-                if is_partition(sensor):
-                    partition = self.partition(name, robot)
-                    nodes |= {} if partition is None else {Slot(own_name, robot): partition.index}
-                else:
-                    nodes |= scalars_by_slot(self.value(name, robot), own_name, robot)
-        return nodes
+        return slots_of_sensors(self, partial(perceived_name, self.names))
 
     def _faulty(self, value: Value, robot: int, place: tuple[int, ...]) -> Value:
         if isinstance(value, tuple):
             return tuple(self._faulty(item, robot, (*place, index)) for index, item in enumerate(value))
         if isinstance(value, Named):
-            slot = Slot(perceived_name(self._fault.sensor, self.names), robot, place)
+            slot = Slot(perceived_name(self.names, self._fault.sensor), robot, place)
             return value.with_nodes(lambda node: self._scalar(node, slot))
-        return self._scalar(value, Slot(perceived_name(self._fault.sensor, self.names), robot, place))
+        return self._scalar(value, Slot(perceived_name(self.names, self._fault.sensor), robot, place))
 
     def _scalar(self, true: Node, slot: Slot) -> Node:
         """Return what is perceived of one value; a decision perceives what was sensed after the step before it."""
@@ -115,7 +107,7 @@ class Perceived(Moment):
         return graph.apply("+", true, noise)
 
 
-def perceived_name(sensor: str, names: Names) -> str:
+def perceived_name(names: Names, sensor: str) -> str:
     """Return the name of the slots that keep what is perceived of a sensor, which nothing else has."""
     environment = names.spec.environment
     taken = {*environment.sensors, *environment.state, *environment.world}
@@ -127,16 +119,6 @@ def perceived_name(sensor: str, names: Names) -> str:
 
 def decision_perceived(now: Stored, beginning: Perceived, names: Names) -> Moment:
     """Return the snapshot as it is perceived, read from where the step before, or the start, stored it."""
-    sensed = Sensed()
-    for name, sensor in names.spec.environment.sensors.items():
-        own_name = perceived_name(name, names)
-        for robot in names.robots:
-            if is_partition(sensor):
-                partition = beginning.partition(name, robot)
-                slot = names.graph.leaf("slot", Slot(own_name, robot), Kind.CELL, Level.LANE)
-                sensed.partitions[name, robot] = partition and replace(partition, index=slot)
-            else:
-                sensed.values[name, robot] = read_slots(
-                    own_name, robot, beginning.value(name, robot), names.graph
-                )
+    sensors = names.spec.environment.sensors
+    sensed = stored_sensors(beginning, sensors, partial(perceived_name, names))
     return Moment(names, now, names.step, sensed=sensed)

@@ -12,7 +12,7 @@ from bbsd.language.meaning.naming.names import Names, Stored, read_slots, scalar
 from bbsd.language.meaning.partitions import Partition, is_partition
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Callable, Collection
 
 
 def slots_read(stored: Stored, names: Names) -> Stored:
@@ -32,18 +32,20 @@ def decision_at(now: Stored, beginning: Moment, names: Names) -> Moment:
     return Moment(names, now, names.step, sensed=stored_sensors(beginning, names.spec.environment.sensors))
 
 
-def stored_sensors(beginning: Moment, sensors: Collection[str]) -> Sensed:
-    """Return the leaves that read sensors from where the step before, or the start, stored them."""
+def stored_sensors(
+    beginning: Moment, sensors: Collection[str], stored_as: Callable[[str], str] = lambda sensor: sensor
+) -> Sensed:
+    """Return the leaves that read sensors from where the step before, or the start, stored them, by what names."""
     names, sensed = beginning.names, Sensed()
     for name, sensor in names.spec.environment.sensors.items():
         for robot in names.robots if name in sensors and name not in names.unusable else ():
             if is_partition(sensor):
                 partition = beginning.partition(name, robot)
-                slot = names.graph.leaf("slot", Slot(name, robot), Kind.CELL, Level.LANE)
+                slot = names.graph.leaf("slot", Slot(stored_as(name), robot), Kind.CELL, Level.LANE)
                 sensed.partitions[name, robot] = partition and Partition(partition.cells, slot)
             else:
                 value = beginning.value(name, robot)
-                sensed.values[name, robot] = read_slots(name, robot, value, names.graph)
+                sensed.values[name, robot] = read_slots(stored_as(name), robot, value, names.graph)
     return sensed
 
 
@@ -58,7 +60,9 @@ def slots_of_state(stored: Stored, names: Names) -> dict[Slot, Node]:
     }
 
 
-def slots_of_sensors(moment: Moment) -> dict[Slot, Node]:
+def slots_of_sensors(
+    moment: Moment, stored_as: Callable[[str], str] = lambda sensor: sensor
+) -> dict[Slot, Node]:
     """Return the scalars of sensors, and the cells of those that are partitions, by the slots that store them."""
     names = moment.names
     nodes: dict[Slot, Node] = {}
@@ -66,7 +70,7 @@ def slots_of_sensors(moment: Moment) -> dict[Slot, Node]:
         for robot in names.robots if name not in names.unusable else ():
             if is_partition(sensor):
                 partition = moment.partition(name, robot)
-                nodes |= {} if partition is None else {Slot(name, robot): partition.index}
+                nodes |= {} if partition is None else {Slot(stored_as(name), robot): partition.index}
             else:
-                nodes |= scalars_by_slot(moment.value(name, robot), name, robot)
+                nodes |= scalars_by_slot(moment.value(name, robot), stored_as(name), robot)
     return nodes
