@@ -8,9 +8,13 @@ from tests.end_to_end.commands import bbsd
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "tests" / "specs" / "newcomers"
+SECOND = FOLDER / "second"
+"""A second hundred, of which the messages knew nothing when they were written."""
 LONG = 12
 """Characters of a word of a command that say all, such as a path."""
 SOURCE_LINE = re.compile(r"^ *\d+ \|.*$|^ +\| *\^+ *$", re.MULTILINE)
+MARGIN = re.compile(r"^(?:write|maybe|at +\d+| +) \| ", re.MULTILINE)
+"""What stands before a corrected line."""
 HEAD = re.compile(r"^[^:\n]+:(?P<line>\d+):\d+: (?P<severity>error|warning)\[BB\d+\]: ", re.MULTILINE)
 
 
@@ -25,11 +29,11 @@ class Told:
     """The line of each warning, in order."""
 
 
-def told_of(item: dict[str, object], folder: Path) -> Told:
-    """Run the command of an item, or check its file, and return what is said."""
+def told_of(item: dict[str, object], folder: Path, files: Path = FOLDER) -> Told:
+    """Run the command of an item in a folder, or check its file among others, and return what is said."""
     command = item.get("command")
     words = str(command).split()[1:] if command else ["check", str(item["file"])]
-    _, out, err = bbsd(*words, cwd=folder if command else FOLDER)
+    _, out, err = bbsd(*words, cwd=folder if command else files)
     text = f"{out}\n{err}"
     heads = [(match["severity"], int(match["line"])) for match in HEAD.finditer(text)]
     mistakes, warnings = (
@@ -63,7 +67,7 @@ def shows_right(item: dict[str, object], told: Told) -> bool:
     right = item.get("right")
     if right is None:
         return True
-    said, given = "".join(told.said.split()), str(item.get("command", "")).split()
+    said, given = "".join(MARGIN.sub("", told.said).split()), str(item.get("command", "")).split()
     other = [word for word in str(right).split() if word not in given and len(word) >= LONG]
     is_part_said = bool(given) and bool(other) and all(word in said for word in other)
     return is_part_said or "".join(str(right).split()) in said

@@ -33,6 +33,8 @@ def other_names(reading: Reading) -> None:
     """Rename keys of other tools, and misspelled ones, where the right key is not there."""
     for path in [*blocks(reading), *_rules(reading)]:
         fields = fields_at(path) or {}
+        if path[2:3] == ("rules",) and _whole_rule(reading, path):
+            continue
         for key in _unexpected(reading, path):
             free = [name for name in fields if name not in reading.mapping(path)]
             new = _synonyms(path).get(key)
@@ -40,6 +42,27 @@ def other_names(reading: Reading) -> None:
                 _rename(reading, (*path, key), new, is_certain=True)
             elif not blocks_with(key) and (near := _near(key, free)):
                 _rename(reading, (*path, key), near[0], is_certain=near[1])
+
+
+def _whole_rule(reading: Reading, path: Path) -> bool:
+    """Rename both keys of `if: ..., then: ...` as one mistake; return whether a rule is written so."""
+    keys = [*reading.mapping(path)]
+    new = [RULE.get(key, "") for key in keys]
+    own = [reading.key((*path, key)) for key in keys]
+    if sorted(new) != ["do", "when"] or {*keys} & {*new} or None in own:
+        return False
+    source = reading.document(path).source
+    edits = [
+        source.edit(each.start, each.end, name)
+        for each, name in zip(own, new, strict=True)
+        if each is not None
+    ]
+    message = f'unexpected keys "{keys[0]}" and "{keys[1]}"; a rule has when and do'
+    written = correction(reading.document(path), edits)
+    reading.tell((*path, keys[0]), "BB020", message, f"write {new[0]} and {new[1]}", written)
+    for key, name in zip(keys, new, strict=True):
+        reading.rename((*path, key), name)
+    return True
 
 
 def _unexpected(reading: Reading, path: Path) -> list[str]:

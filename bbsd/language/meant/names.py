@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from keyword import kwlist
 from typing import TYPE_CHECKING
 
+from bbsd.expression.reserved import RESERVED, Use, another_name
 from bbsd.expression.syntax.mistakes import KEY, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
@@ -154,10 +156,26 @@ def names(reading: Reading) -> None:
     """Read names with capitals, blanks and dashes as those with _ that they should be, where they are used too."""
     for path in named_blocks(reading):
         for old in [*reading.mapping(path)]:
+            if old in WORDS_OF_PYTHON and path != ("behaviors",):
+                _reserved(reading, path, old)
+                continue
             new = _with_underscores(old)
             if NAME.match(old) or "(" in old or new is None or new in reading.mapping(path):
                 continue
             _rename(reading, path, old, new)
+
+
+IN_SPECS = frozenset({"and", "or", "not", "if", "else", "for", "in", "is", "from"})
+WORDS_OF_PYTHON = frozenset(kwlist) & RESERVED[Use.VALUE].keys() - IN_SPECS
+"""Names that no value can have, and that nothing but a name can mean in a spec."""
+
+
+def _reserved(reading: Reading, path: Path, old: str) -> None:
+    new = another_name(old)
+    if path[-1] in ("actions", "reward") or new in reading.mapping(path):
+        return
+    message = f'"{old}" cannot be {Use.VALUE.value}: {RESERVED[Use.VALUE][old]}'
+    _rename(reading, path, old, new, message, f"write another one, such as {new}", is_certain=False)
 
 
 def _with_underscores(name: str) -> str | None:
@@ -165,15 +183,25 @@ def _with_underscores(name: str) -> str | None:
     return new if NAME.match(new) else None
 
 
-def _rename(reading: Reading, path: Path, old: str, new: str) -> None:
+def _rename(
+    reading: Reading,
+    path: Path,
+    old: str,
+    new: str,
+    message: str = "",
+    advice: str = "",
+    *,
+    is_certain: bool = True,
+) -> None:
     key, document = reading.key((*path, old)), reading.document((*path, old))
     edits = []
     if key is not None:
         edits = [document.source.edit(key.start, key.end, new)]
         uses = _uses(document.root, old) if document.root else ()
         edits += [document.source.edit(start, end, new) for start, end in uses if start != key.start]
-    message = f'"{old}" cannot be a name; {RULE}'
-    reading.tell((*path, old), "BB024", message, f"write {new}", correction(document, edits))
+    message = message or f'"{old}" cannot be a name; {RULE}'
+    written = correction(document, edits, is_certain=is_certain)
+    reading.tell((*path, old), "BB024", message, advice or f"write {new}", written)
     reading.rename((*path, old), new)
     _use_new(reading.data, old, new)
 

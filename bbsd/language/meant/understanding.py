@@ -26,6 +26,7 @@ from bbsd.language.meant.rules import decisions, mapping_of_rules, parts_of_rule
 from bbsd.language.meant.statements import cells_as_texts, conditions_as_expressions, if_statements
 from bbsd.language.meant.values import (
     blocks_of_costs,
+    end_of_one_robot,
     numbers_of_robots,
     steps_in_time,
     values_at_the_start,
@@ -65,6 +66,7 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     whole_numbers,
     methods,
     places,
+    end_of_one_robot,
     if_statements,
     conditions_as_expressions,
     cells_as_texts,

@@ -6,9 +6,10 @@ import operator
 import re
 from typing import TYPE_CHECKING
 
+from bbsd.expression.foreign.tokens import reads
 from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
-from bbsd.expression.syntax.tree import Binary, Call, Expr, Name, Number
+from bbsd.expression.syntax.tree import Binary, Call, Expr, Name, Number, names_used
 from bbsd.language.field_types import grouped
 from bbsd.language.goals import SMALL, goal_mistake, is_goal
 from bbsd.language.keys import fields_at
@@ -64,6 +65,24 @@ def steps_in_time(reading: Reading) -> None:
     written = Rewriting(str(steps), WHOLE, is_certain=unit.startswith("step"))
     reading.tell(STEPS, "BB022", message, advice, written, WHOLE)
     reading.set(STEPS, steps)
+
+
+def end_of_one_robot(reading: Reading) -> None:
+    """Read `ends: height > 3`, with several robots, as what must hold for all of them."""
+    path: Path = ("environment", "ends")
+    text, robots = reading.at(path), reading.at(("environment", "robots"))
+    own = {*reading.mapping(("environment", "state")), *reading.mapping(("environment", "sensors"))}
+    if not isinstance(text, str) or not isinstance(robots, int) or robots < 2 or not reads(text):
+        return
+    used = own & names_used(parse(text))
+    if not used or re.search(r"\[|\bfor\b", text):
+        return
+    inner = re.sub(rf"\b({'|'.join(sorted(used))})\b", r"\1[r]", text)
+    new, name = f"all({inner} for r in team)", min(used, key=text.index)
+    message = f"{name} is one value for each robot; here the team is meant"
+    advice = f"write {new}, or any(...) where one robot is enough"
+    reading.tell(path, "BB059", message, advice, Rewriting(new, WHOLE, is_certain=False), WHOLE)
+    reading.set(path, new)
 
 
 BLOCKS_OF_COUNTS: tuple[Path, ...] = (
