@@ -40,3 +40,8 @@ def process(*words, cwd="."):
         command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as running:
         yield running
+
+
+def written(folder):
+    """What a design wrote that the same spec and seed write again: the contents of two files."""
+    return [(folder / name).read_bytes() for name in ("architecture.yaml", "metrics.jsonl")]

@@ -6,7 +6,7 @@ import signal
 import pytest
 
 from bbsd.api import Interrupted, design
-from tests.end_to_end.commands import bbsd, process
+from tests.end_to_end.commands import bbsd, process, written
 
 SPEC = """
 bbsd: 1
@@ -31,10 +31,6 @@ def spec(tmp_path):
     path = tmp_path / "guess.yaml"
     path.write_text(SPEC)
     return path
-
-
-def written(folder):
-    return [(folder / name).read_bytes() for name in ("architecture.yaml", "metrics.jsonl")]
 
 
 def test_a_budget_of_the_command_line_is_that_of_the_run(spec, tmp_path):

@@ -11,6 +11,7 @@ from bbsd.architecture.starting import UnfitStart
 from bbsd.language.design import MethodName
 from bbsd.runs.storage.records import FolderError
 from tests.end_to_end.commands import bbsd as command
+from tests.end_to_end.commands import written
 
 N = 60
 SPEC = f"""
@@ -113,10 +114,6 @@ def files(tmp_path):
     for name, text in (("tell.yaml", SPEC), ("hand.yaml", HAND)):
         (tmp_path / name).write_text(text)
     return tmp_path
-
-
-def written(folder):
-    return [(folder / name).read_bytes() for name in ("architecture.yaml", "metrics.jsonl")]
 
 
 @pytest.mark.parametrize("change", ["kept", "changed", "gone"])

@@ -8,6 +8,7 @@ import pytest
 import bbsd
 from bbsd import api
 from tests.end_to_end.commands import bbsd as command
+from tests.end_to_end.commands import written
 
 SPEC = """
 bbsd: 1
@@ -38,10 +39,6 @@ def spec(tmp_path):
     path = tmp_path / "guess.yaml"
     path.write_text(SPEC)
     return path
-
-
-def written(folder):
-    return [(folder / name).read_bytes() for name in ("architecture.yaml", "metrics.jsonl")]
 
 
 def exact(design):
