@@ -200,7 +200,7 @@ def _diagnoses(
     """
     if not mistakes and not files.mistakes:
         return []
-    from bbsd.language.meant.placing import Placing
+    from bbsd.language.meant.edits.placing import Placing
 
     told = [each for each in files.mistakes if not _is_explained(each, files, explained)]
     better = _better_told(files) if told else {}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.foreign.tokens import reads
 from bbsd.language.field_types import scalar_text
-from bbsd.language.meant.layout import STEP, column, correction
+from bbsd.language.meant.edits.layout import STEP, column, correction
 from bbsd.text.nodes import Mapping, Scalar
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from bbsd.expression.syntax.text import render
 from bbsd.expression.syntax.tree import names_used
 from bbsd.language.field_types import expression, scalar_text
 from bbsd.language.meaning.partitions import is_partition
+from bbsd.language.meant.edits.layout import STEP, column, correction
 from bbsd.language.meant.forms import key_of_item, to_mapping
-from bbsd.language.meant.layout import STEP, column, correction
 from bbsd.language.models import OTHERWISE
 from bbsd.text.nodes import Sequence
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.language.base import holds_block
 from bbsd.language.keys import fields_at
-from bbsd.language.meant.layout import STEP, column, correction, moved, shifted, stretch
+from bbsd.language.meant.edits.layout import STEP, column, correction, moved, shifted, stretch
 from bbsd.language.validation import named
 
 if TYPE_CHECKING:

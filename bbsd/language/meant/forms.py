@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
-from bbsd.language.meant.layout import STEP, begins_line, column, correction
+from bbsd.language.meant.edits.layout import STEP, begins_line, column, correction
 from bbsd.language.validation import named
 from bbsd.text.nodes import Mapping, Scalar, Sequence
 

@@ -12,7 +12,7 @@ from bbsd.language.field_types import scalar_text
 from bbsd.language.goals import is_goal
 from bbsd.language.keys import blocks_with, fields_at
 from bbsd.language.meant.depth import blocks
-from bbsd.language.meant.layout import column, correction, moved, stretch
+from bbsd.language.meant.edits.layout import column, correction, moved, stretch
 from bbsd.language.meant.words import BEHAVIOR, ENVIRONMENT, RULE, TOP
 from bbsd.language.validation import named
 from bbsd.text.nodes import Mapping, Scalar

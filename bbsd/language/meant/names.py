@@ -10,17 +10,15 @@ from bbsd.expression.reserved import RESERVED, Use, another_name
 from bbsd.expression.syntax.mistakes import KEY, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
+from bbsd.language.meant.edits.layout import correction
+from bbsd.language.meant.edits.uses import uses
 from bbsd.language.meant.forms import named_blocks
-from bbsd.language.meant.layout import correction
-from bbsd.text.nodes import Alias, Mapping, Scalar, Sequence
+from bbsd.text.nodes import Scalar
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
     from bbsd.text import Data
-    from bbsd.text.nodes import Node
 
 TIME_STEPS = ("dt", "delta_t", "time_step", "tick")
 RULE = "names are small letters, digits and _, a letter first"
@@ -197,8 +195,8 @@ def _rename(
     edits = []
     if key is not None:
         edits = [document.source.edit(key.start, key.end, new)]
-        uses = _uses(document.root, old) if document.root else ()
-        edits += [document.source.edit(start, end, new) for start, end in uses if start != key.start]
+        found = uses(document.root, old, _pattern(old)) if document.root else ()
+        edits += [document.source.edit(start, end, new) for start, end in found if start != key.start]
     message = message or f'"{old}" cannot be a name; {RULE}'
     written = correction(document, edits, is_certain=is_certain)
     reading.tell((*path, old), "BB024", message, advice or f"write {new}", written)
@@ -208,24 +206,6 @@ def _rename(
 
 def _pattern(old: str) -> re.Pattern[str]:
     return re.compile(rf"(?<![\w.\-]){re.escape(old)}(?![\w\-]|\s*\()")
-
-
-def _uses(node: Node, old: str) -> Iterator[tuple[int, int]]:
-    """Yield where a name stands in plain texts: as a whole, or as a word of an expression."""
-    match node:
-        case Mapping():
-            for entry in node.entries.values():
-                if entry.key.text == old:
-                    yield entry.key.start, entry.key.end
-                yield from _uses(entry.value, old)
-        case Sequence():
-            for item in node.items:
-                yield from _uses(item, old)
-        case Scalar(style="", text=str()) if node.end - node.start == len(node.text):
-            for match_ in _pattern(old).finditer(node.text):
-                yield node.start + match_.start(), node.start + match_.end()
-        case Alias() | Scalar():
-            return
 
 
 def _use_new(data: Data, old: str, new: str) -> Data:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.language.field_types import scalar_text
-from bbsd.language.meant.layout import STEP, begins_line, column, correction, lines, stretch
+from bbsd.language.meant.edits.layout import STEP, begins_line, column, correction, lines, stretch
 from bbsd.language.meant.statements import cells_asked, inputs_of
 
 if TYPE_CHECKING:

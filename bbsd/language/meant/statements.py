@@ -15,8 +15,8 @@ from bbsd.expression.syntax.text import number_text, render
 from bbsd.expression.syntax.tree import Call, Comparison, Expr, Logical, Name, Number, Span, Truth, Unary
 from bbsd.language.field_types import expression, scalar_text
 from bbsd.language.meaning.partitions import conditions_of_cells
+from bbsd.language.meant.edits.layout import correction
 from bbsd.language.meant.forms import named_blocks
-from bbsd.language.meant.layout import correction
 from bbsd.text.nodes import Mapping
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from bbsd.expression.foreign.tokens import reads
 from bbsd.expression.foreign.translating import translated
 from bbsd.expression.syntax.mistakes import ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
+from bbsd.language.meant.edits.layout import MAX_CHARACTERS, STEP
 from bbsd.language.meant.forms import NAMED
-from bbsd.language.meant.layout import MAX_CHARACTERS, STEP
 from bbsd.language.validation import validate
 from bbsd.text import read
 from bbsd.text.writing.scalars import scalar_text

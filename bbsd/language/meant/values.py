@@ -13,7 +13,7 @@ from bbsd.expression.syntax.tree import Binary, Call, Expr, Name, Number, names_
 from bbsd.language.field_types import grouped
 from bbsd.language.goals import SMALL, goal_mistake, is_goal
 from bbsd.language.keys import fields_at
-from bbsd.language.meant.layout import correction
+from bbsd.language.meant.edits.layout import correction
 from bbsd.text.nodes import Scalar
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.expression.vocabulary import CONSTANTS
 from bbsd.language.field_types import is_value_name, scalar_text, signature
-from bbsd.language.meant.layout import correction
-from bbsd.text.nodes import Mapping, Scalar, Sequence
+from bbsd.language.meant.edits.layout import correction
+from bbsd.language.meant.edits.uses import uses
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,10 +18,8 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
     from bbsd.text import Data
-    from bbsd.text.nodes import Node
 
 SENSORS: Path = ("environment", "sensors")
-WORD = r"(?<![\w.]){0}(?![\w(])"
 MEASURED = re.compile(r"\s*(?:cut|values)\s*\(")
 
 
@@ -106,7 +104,7 @@ def sensors_named_as_state(reading: Reading) -> None:
         for place in _places(reading, name, is_cut=is_cut):
             node = reading.node(place)
             if node is not None and reading.document(place) is document:
-                edits += [document.source.edit(*span, new) for span in _spans(node, name)]
+                edits += [document.source.edit(*span, new) for span in uses(node, name, _word(name))]
         message = f"{name} is already the name of something in environment.{block}"
         advice = f"a name stands for one thing only; give this one another, such as {new}"
         written = correction(document, sorted(set(edits)), is_certain=False)
@@ -131,20 +129,8 @@ def _places(reading: Reading, name: str, *, is_cut: bool) -> list[Path]:
     return places
 
 
-def _spans(node: Node, name: str) -> Iterator[tuple[int, int]]:
-    """Yield where a name stands as a key or a word of plain values."""
-    match node:
-        case Mapping():
-            for entry in node.entries.values():
-                if entry.key.text == name:
-                    yield entry.key.start, entry.key.end
-                yield from _spans(entry.value, name)
-        case Sequence():
-            for item in node.items:
-                yield from _spans(item, name)
-        case Scalar(style="", text=str()) if node.end - node.start == len(node.text):
-            for match_ in re.finditer(WORD.format(re.escape(name)), node.text):
-                yield node.start + match_.start(), node.start + match_.end()
+def _word(name: str) -> re.Pattern[str]:
+    return re.compile(rf"(?<![\w.]){re.escape(name)}(?![\w(])")
 
 
 def _renamed(data: Data, name: str, new: str) -> Data:
@@ -152,4 +138,4 @@ def _renamed(data: Data, name: str, new: str) -> Data:
         return {new if key == name else key: _renamed(value, name, new) for key, value in data.items()}
     if isinstance(data, list):
         return [_renamed(item, name, new) for item in data]
-    return re.sub(WORD.format(re.escape(name)), new, data) if isinstance(data, str) else data
+    return _word(name).sub(new, data) if isinstance(data, str) else data

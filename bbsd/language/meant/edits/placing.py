@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.errors import Correction
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Enclosing, Rewriting, characters_of_key
-from bbsd.language.meant.layout import begins_line, column
+from bbsd.language.meant.edits.layout import begins_line, column
 from bbsd.language.validation import child
 from bbsd.text import read
 from bbsd.text.nodes import Mapping, Scalar, Sequence
