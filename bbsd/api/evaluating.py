@@ -22,7 +22,6 @@ from bbsd.evaluation import (
     from_the_top,
     weighted_evaluation,
 )
-from bbsd.evaluation.exact.tables import exact_evaluation
 from bbsd.kernel.keys import own_keys
 from bbsd.kernel.streams import fold, name_word
 from bbsd.solver.judgement import RANDOM_AGENTS, RANDOM_EPISODES
@@ -136,6 +135,8 @@ def evaluate(
                 raise NoSingleEpisodes(
                     "an exact mean by a table of transitions comes from no single episodes"
                 )
+            from bbsd.evaluation.exact.tables import exact_evaluation
+
             return from_the_top(exact_evaluation(problem, problem.table, architecture, generation), structure)
         if exact:
             problem, weights = enumerate_starts(problem)

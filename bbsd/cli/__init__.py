@@ -5,7 +5,7 @@ import gc
 
 __all__ = ["GC_THRESHOLD", "main"]
 
-GC_THRESHOLD = 100_000
+GC_THRESHOLD = 300_000
 """New objects between two garbage collections; a command's objects live as long as it does, or die at once."""
 
 

@@ -35,9 +35,6 @@ from bbsd.cli.terminal.output import (
 from bbsd.cli.terminal.warnings import say_warnings
 from bbsd.cli.understanding.faults import TOO_LOW, show_faults, too_low
 from bbsd.errors import UsageError
-from bbsd.report.figures import draw_episode, names_to_show, require_figure, require_names
-from bbsd.report.plain import evaluation_plain, json_text
-from bbsd.runs.storage.lock import write_result_text
 
 if TYPE_CHECKING:
     from bbsd.evaluation import Evaluation, Rank, Trace
@@ -173,7 +170,10 @@ def evaluate(
     say_warnings(loaded)
     if expect_at_least is not None:
         _require_expectations(loaded)
-    require_names(values or (), names_to_show(loaded.spec))
+    if values:
+        from bbsd.report.figures import names_to_show, require_names
+
+        require_names(values, names_to_show(loaded.spec))
     opening = stepping(allow_import, import_from, step_limit, in_python=in_python)
     if fault:
         episodes = episodes or 1000
@@ -205,6 +205,8 @@ def evaluate(
         if trace:
             _write_trace(traced, trace, trace_format)
         if plot:
+            from bbsd.report.figures import draw_episode
+
             draw_episode(traced, loaded.spec, plot, episode=number, show=values or ())
     failures = [*too_low(evaluation.mean, at_least), *_too_rare(evaluation, expect_at_least)]
     for failure in failures:
@@ -230,6 +232,8 @@ def _require_use(
 
 def _require_outputs(returns: Path | None, trace: Path | None, plot: Path | None) -> None:
     if plot:
+        from bbsd.report.figures import require_figure
+
         require_figure(plot)
     for path in (returns, trace, plot):
         if path:
@@ -238,6 +242,8 @@ def _require_outputs(returns: Path | None, trace: Path | None, plot: Path | None
 
 def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
     if as_json:
+        from bbsd.report.plain import evaluation_plain, json_text
+
         show(json_text(evaluation_plain(evaluation)))
         return
     from bbsd.report.tables import evaluation_table
@@ -248,12 +254,14 @@ def _show(evaluation: "Evaluation", *, as_json: bool) -> None:
 def _write_returns(evaluation: "Evaluation", path: Path | None) -> None:
     if path and evaluation.each is not None:
         from bbsd.report.csv_text import returns_text
+        from bbsd.runs.storage.lock import write_result_text
 
         write_result_text(path, returns_text(evaluation.each))
 
 
 def _write_trace(traced: "Trace", path: Path, form: TraceFormat) -> None:
     from bbsd.report.csv_text import csv_text
+    from bbsd.runs.storage.lock import write_result_text
 
     write_result_text(path, csv_text(traced, long=form is TraceFormat.LONG))
 
