@@ -2,6 +2,7 @@
 
 import atexit
 import gc
+import os
 
 __all__ = ["GC_THRESHOLD", "main"]
 
@@ -11,9 +12,10 @@ GC_THRESHOLD = 300_000
 
 def main() -> None:
     """Run the command line, with few garbage collections; see `bbsd.cli.app.run`."""
-    gc.set_threshold(
-        GC_THRESHOLD
-    )  # before anything is imported, which makes most of a short command's objects
+    # Before anything is imported, since that makes most of a short command's objects.
+    gc.set_threshold(GC_THRESHOLD)
+    # Looking for plugins of pydantic would read what is said of all installed packages, and import strangers.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     atexit.register(gc.freeze)  # Python's last collection would take a tenth of a design's time
     from bbsd.cli.app import run
 

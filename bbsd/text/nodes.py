@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 Data: TypeAlias = dict[str, "Data"] | list["Data"] | str | int | float | bool | None
 DataPath: TypeAlias = tuple[str | int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Scalar:
+class Scalar(NamedTuple):
     """A single value: its text, as YAML reads the characters from start to end, and its data.
 
     The style is '' for a plain scalar, else its first character (quote, | or >). Start and end include quotes,
@@ -34,8 +32,7 @@ class Scalar:
         return not self.style and self.start < self.end
 
 
-@dataclass(frozen=True, slots=True)
-class Sequence:
+class Sequence(NamedTuple):
     """A list; it ends where its last item or its bracket ends, before any comment."""
 
     start: int
@@ -44,16 +41,14 @@ class Sequence:
     items: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(NamedTuple):
     """A key of a mapping and its value."""
 
     key: Scalar
     value: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Mapping:
+class Mapping(NamedTuple):
     """A mapping; it ends where its last value or its brace ends, before any comment."""
 
     start: int
@@ -62,8 +57,7 @@ class Mapping:
     entries: dict[str, Entry]
 
 
-@dataclass(frozen=True, slots=True)
-class Alias:
+class Alias(NamedTuple):
     """A repetition of a node that was anchored before."""
 
     start: int

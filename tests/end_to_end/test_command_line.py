@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import os
 import shutil
 import signal
 import subprocess
@@ -86,6 +87,25 @@ def test_a_check_imports_only_what_it_uses():
     assert "bbsd.language.warnings.finding" in imported
     assert not {name.partition(".")[0] for name in imported} & ({*HEAVY} - {"pydantic", "yaml"})
     assert not {name for name in imported if name.startswith(LATE)}
+
+
+def test_no_plugin_of_pydantic_is_imported(tmp_path):
+    known = tmp_path / "planted-1.0.dist-info"
+    known.mkdir()
+    (known / "METADATA").write_text("Metadata-Version: 2.1\nName: planted\nVersion: 1.0\n")
+    (known / "entry_points.txt").write_text("[pydantic]\nplanted = planted:plugin\n")
+    (tmp_path / "planted.py").write_text("print('planted')\nplugin = None\n")
+    program = [sys.executable, "-c", "from bbsd.language.models import Spec; Spec.model_rebuild(force=True)"]
+    command = [sys.executable, "-m", "bbsd", "check", str(SPEC)]
+    path = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
+    said = [
+        subprocess.run(
+            words, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=False
+        ).stdout
+        for words in (program, command)
+    ]
+    assert "planted" in said[0]
+    assert "planted" not in said[1]
 
 
 def test_the_version_is_the_package_s():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from bbsd.expression.elaboration import elaboration
@@ -27,8 +26,7 @@ Row = tuple[Node, ...]
 PLACE = "a place, [x, y] or [x, y, radius]"
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(NamedTuple):
     """Places and headings robot by robot, marks and paths by name; area, circles, grid and paths once for all."""
 
     places: tuple[Row, ...]
