@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 
-from bbsd.compiler.passes.robot_loops import MOST_ROBOTS_WRITTEN_OUT
 from tests.unit.problems import RICH, episode_of, lived, problem_of
 
 COUNTING = """
@@ -199,6 +198,4 @@ def test_what_decides_a_cell_or_an_index_is_counted_where_it_is_not_finite(seen,
     problem = problem_of(DECIDING.format(seen=seen, y=y, robots=robots))
     *by_slot, deciding = episode_of(problem, [[1] * problem.tables[0].n_cells], [0]).not_finite[0].tolist()
     assert not any(by_slot)
-    looped = robots > MOST_ROBOTS_WRITTEN_OUT
-    of_each_robot = looped and "x" in seen + y  # in a loop over robots each of them counts
-    assert deciding == steps * (robots if of_each_robot else 1)
+    assert deciding == steps  # each counts once, in a loop over robots or not
