@@ -12,6 +12,7 @@ from bbsd.expression.foreign.tokens import (
     arguments,
     operand_start,
     reads,
+    replacing,
     spliced,
     tokens,
 )
@@ -80,13 +81,7 @@ def attribute(text: str, _key: str) -> Step | None:
             index = text[found[begin + 1].start : found[at - 1].end]
             new = f"{name.text}{index}"
             message = f'another robot\'s value is not written "{written}"'
-            return Step(
-                owner.start,
-                name.end - owner.start,
-                message,
-                f"write {new}",
-                spliced(text, owner.start, name.end, new),
-            )
+            return replacing(text, owner.start, name.end, new, message, f"write {new}")
         called = _call_at(text, name.start)
         if called and (_is_known(name.text) or name.text in OTHER_NAMES):
             values = [text[owner.start : dot.start], *called[0]]
@@ -158,7 +153,7 @@ def listed_arguments(text: str, _key: str) -> Step | None:
             stop = found[read[1]].end
             what = "the bounds of cut" if function == "cut" else f"the arguments of {function}"
             message = f"{what} are no list: they stand one by one, without brackets"
-            return Step(token.start, stop - token.start, message, "", spliced(text, token.start, stop, inner))
+            return replacing(text, token.start, stop, inner, message, "")
     return None
 
 

@@ -11,6 +11,7 @@ from bbsd.expression.foreign.tokens import (
     begins_operand,
     closing,
     reads,
+    replacing,
     spliced,
     split_in_two,
     tokens,
@@ -48,7 +49,7 @@ def question_mark(text: str, _key: str) -> Step | None:
         new = f"({new})"
     stop = found[last - 1].end
     message = 'there is no "? :" in expressions'
-    return Step(start, stop - start, message, FORM, spliced(text, start, stop, new))
+    return replacing(text, start, stop, new, message, FORM)
 
 
 def _start_of_part(found: Sequence[Token], at: int) -> int:
@@ -165,9 +166,7 @@ def else_if(text: str, _key: str) -> Step | None:
     )
     part = found[at + 1 : after]
     if any(token.text == "if" for token in part):
-        return Step(
-            token.start, len(token.text), message, advice, spliced(text, token.start, token.end, "else")
-        )
+        return replacing(text, token.start, token.end, "else", message, advice)
     pair = _condition_and_value(text, part)
     if pair is None or after == last:
         return Step(token.start, len(token.text), message, advice, None)

@@ -13,6 +13,7 @@ from bbsd.expression.foreign.tokens import (
     operand_end,
     operand_start,
     reads,
+    replacing,
     spliced,
     tokens,
 )
@@ -88,13 +89,7 @@ def two_indices(text: str, _key: str) -> Step | None:
             continue
         new, end = "".join(f"[{index}]" for index in read[0]), found[read[1]].end
         message = "each index of a list of lists has brackets of its own"
-        return Step(
-            token.start,
-            end - token.start,
-            message,
-            f"write {new}",
-            spliced(text, token.start, end, new),
-        )
+        return replacing(text, token.start, end, new, message, f"write {new}")
     return None
 
 
@@ -114,13 +109,7 @@ def comprehension(text: str, _key: str) -> Step | None:
         new = inner if is_alone else f"list({inner})"
         message = "a generator stands without brackets" if is_alone else "a list is written list(...)"
         shown = f"{function}({inner})" if is_alone else new
-        return Step(
-            token.start,
-            stop - token.start,
-            message,
-            f"write {shown}",
-            spliced(text, token.start, stop, new),
-        )
+        return replacing(text, token.start, stop, new, message, f"write {shown}")
     return None
 
 
@@ -198,9 +187,7 @@ def repeated(text: str, _key: str) -> Step | None:
         name = "j" if " for k in " in read[0][0] else "k"
         new = f"list({read[0][0]} for {name} in range({number}))"
         message = "a list is not repeated by *"
-        return Step(
-            token.start, stop - token.start, message, f"write {new}", spliced(text, token.start, stop, new)
-        )
+        return replacing(text, token.start, stop, new, message, f"write {new}")
     return None
 
 
@@ -217,13 +204,7 @@ def membership(text: str, _key: str) -> Step | None:
             stop = found[at + 1].end if negated else token.end
             sign = "!=" if negated else "=="
             message = 'there is no "is" in expressions'
-            return Step(
-                token.start,
-                stop - token.start,
-                message,
-                f"write {sign}",
-                spliced(text, token.start, stop, sign),
-            )
+            return replacing(text, token.start, stop, sign, message, f"write {sign}")
         read = arguments(text, found, at + 1) if _text_of(found[at + 1 : at + 2]) in ("[", "(", "{") else None
         if read is None or not read[0] or not all(map(reads, read[0])):
             continue
@@ -237,7 +218,7 @@ def membership(text: str, _key: str) -> Step | None:
         shown = new if is_whole or len(read[0]) == 1 else f"({new})"
         message = 'there is no "in" in expressions but after for'
         start = found[begin].start
-        return Step(start, stop - start, message, f"write {new}", spliced(text, start, stop, shown))
+        return replacing(text, start, stop, shown, message, f"write {new}")
     return None
 
 
@@ -263,7 +244,5 @@ def list_in_brackets(text: str, _key: str) -> Step | None:
             continue
         new, stop = f"list({', '.join(read[0])})", found[read[1]].end
         message = "a list is not written in brackets alone"
-        return Step(
-            token.start, stop - token.start, message, f"write {new}", spliced(text, token.start, stop, new)
-        )
+        return replacing(text, token.start, stop, new, message, f"write {new}")
     return None

@@ -6,7 +6,7 @@ import itertools
 import re
 from typing import TYPE_CHECKING
 
-from bbsd.expression.foreign.tokens import KEYWORDS, Step, begins_operand, spliced, tokens
+from bbsd.expression.foreign.tokens import KEYWORDS, Step, begins_operand, replacing, tokens
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -115,4 +115,4 @@ def decimal_comma(text: str, _key: str) -> Step | None:
 def _step(
     text: str, start: int, stop: int, message: str, advice: str, new: str, *, is_certain: bool = True
 ) -> Step:
-    return Step(start, stop - start, message, advice, spliced(text, start, stop, new), is_certain)
+    return replacing(text, start, stop, new, message, advice, is_certain)

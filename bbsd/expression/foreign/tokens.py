@@ -85,6 +85,13 @@ def spliced(text: str, start: int, end: int, new: str) -> str:
     return text[:start] + new + text[end:]
 
 
+def replacing(
+    text: str, start: int, end: int, new: str, message: str, advice: str, is_certain: bool = True
+) -> Step:
+    """Return the step that writes another text for the characters from start up to end."""
+    return Step(start, end - start, message, advice, spliced(text, start, end, new), is_certain)
+
+
 def closing(found: Sequence[Token], at: int) -> int | None:
     """Return the index of the bracket that closes the one at an index, None if there is none."""
     depth = 0
