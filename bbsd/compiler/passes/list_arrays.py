@@ -15,7 +15,7 @@ Operations that exist only here:
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import prod
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 MOST_ELEMENTS_WRITTEN_OUT = 12
 """Lists of up to so many elements have a variable for each, which runs as fast (decision 49, lists as arrays)."""
+MOST_READ_ONE_BY_ONE = 8
+"""How many times as long a list must be whose elements are mostly read one by one, as a sum over them does."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,22 +67,41 @@ def keep_lists_in_arrays(
 
     Lists of which an element is computed in another way stay as they are.
     """
-    lists, values = _lists(episode, most_written_out)
+    lists = _lists(episode, most_written_out)
     if not lists:
         return episode, tuple(to_prove)
-    rewriting = _Rewriting(episode, tuple(to_prove), lists, values)
-    return rewriting.rewritten(), tuple(map(rewriting.new, to_prove))
+    rewriting = _Rewriting(episode, tuple(to_prove), lists)
+    rewritten = rewriting.rewritten()
+    alone = _read_one_by_one(rewritten)
+    longest = most_written_out * MOST_READ_ONE_BY_ONE
+    worth = {
+        slot: kept
+        for slot, kept in lists.items()
+        if prod(kept.lengths) > longest or 2 * alone[slot] < prod(kept.lengths)
+    }
+    if len(worth) < len(lists):
+        if not worth:
+            return episode, tuple(to_prove)
+        rewriting = _Rewriting(episode, tuple(to_prove), worth)
+        rewritten = rewriting.rewritten()
+    return rewritten, tuple(map(rewriting.new, to_prove))
 
 
-def _lists(episode: Episode, most_written_out: int) -> tuple[dict[Slot, KeptList], ListValues]:
-    """Return the lists that an array can keep, and what is known of columns of nodes."""
+def _read_one_by_one(episode: Episode) -> Counter[Slot]:
+    """Return of how many elements of each list the value is read at a place that is known."""
+    reads = (node.data for node in needed(episode.nodes) if not node.operands)
+    return Counter(data.slot for data in reads if isinstance(data, Elements))
+
+
+def _lists(episode: Episode, most_written_out: int) -> dict[Slot, KeptList]:
+    """Return the lists that an array can keep."""
     elements: dict[Slot, dict[tuple[int, ...], Node]] = defaultdict(dict)
     for slot, node in episode.after.items():
         if slot.place:
             elements[slot._replace(place=())][slot.place] = node
-    long = {slot: nodes for slot, nodes in elements.items() if len(nodes) > most_written_out}
+    long = {slot: nodes for slot, nodes in elements.items() if len(nodes) > max(most_written_out, 1)}
     if not long:
-        return {}, ListValues({})
+        return {}
     read: dict[Slot, set[tuple[Kind, Level]]] = defaultdict(set)
     for node in needed(episode.nodes):
         if node.operation == "slot":
@@ -97,8 +118,7 @@ def _lists(episode: Episode, most_written_out: int) -> tuple[dict[Slot, KeptList
         value = values.find([long[slot][place] for place in places_of(shape)], shape)
         if value is not None and _is_kept(value, slot, shape):
             lists[slot] = KeptList(shape, kind, level is Level.EACH, value)
-    # What is made of a list that stays written out is none of an array.
-    return lists, ListValues({slot: each.lengths for slot, each in lists.items()})
+    return lists
 
 
 def _is_kept(value: ListValue, slot: Slot, lengths: tuple[int, ...]) -> bool:
@@ -125,13 +145,14 @@ class _Rewriting:
     before: Episode
     to_prove: tuple[Node, ...]
     lists: Mapping[Slot, KeptList]
-    values: ListValues
     made: dict[int, Node] = field(default_factory=dict)
     """The new nodes by the numbers of the old ones."""
 
     def __post_init__(self) -> None:
         nodes = needed([*self.before.nodes, *self.to_prove])
         self.graph = Graph(first=nodes[-1].number + 1, bounded=False)
+        # What is made of a list that stays written out is none of an array.
+        self.values = ListValues({slot: kept.lengths for slot, kept in self.lists.items()})
 
     def rewritten(self) -> Episode:
         """Return the episode."""

@@ -81,9 +81,9 @@ def assert_loops_change_no_bit(problem, *, looped=True, **wanted):
 
 def assert_arrays_change_no_bit(problem, *, robots=100, kept=None, **wanted):
     """However lists are read and set; `kept` names lists that arrays should keep."""
-    source = source_with(problem, robots, elements=1)
+    source = source_with(problem, robots, elements=0)
     for name in kept or ():
         assert f"{name} = part(" in source, f"{name} is not kept in an array"
-    arrays, written = with_loops(problem, robots, 1), with_loops(problem, robots, 1000)
+    arrays, written = with_loops(problem, robots, 0), with_loops(problem, robots, 1000)
     assert bits(arrays, **wanted) == bits(written, **wanted)
     return source
