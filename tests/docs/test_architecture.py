@@ -1,5 +1,6 @@
 """The page on the architecture names what is there, and its floors are those that import-linter checks."""
 
+import ast
 import re
 import tomllib
 from pathlib import Path
@@ -9,6 +10,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "architecture.md"
 TEXT = PAGE.read_text(encoding="utf-8")
+PACKAGES = sorted((ROOT / "bbsd").rglob("__init__.py"))
+MOST_FILES = 17
 NAMED = sorted(set(re.findall(r"`((?:bbsd|tests|benchmarks|experiments|fuzzing)(?:/[\w.*]+)*)`", TEXT)))
 FLOORS = re.findall(r"^\| `bbsd/(\w+)(?:\.py)?` \|", TEXT, re.MULTILINE)
 
@@ -43,3 +46,11 @@ def test_the_floors_are_in_the_order_that_is_checked():
 )
 def test_what_a_file_is_said_to_have_is_in_it(name, file):
     assert re.search(rf"\b{name}\b", (ROOT / file).read_text(encoding="utf-8")), file
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda file: file.parent.relative_to(ROOT).as_posix())
+def test_a_folder_says_what_it_is_for_and_can_be_overlooked(package):
+    said = ast.get_docstring(ast.parse(package.read_text(encoding="utf-8")))
+    assert said is not None
+    assert said.splitlines()[0].endswith((".", ":"))
+    assert len([*package.parent.glob("*.py")]) - 1 <= MOST_FILES
