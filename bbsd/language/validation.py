@@ -9,7 +9,7 @@ from annotated_types import Ge, Le
 from pydantic import ValidationError
 
 from bbsd.errors import did_you_mean
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Mistake
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Addition, Mistake, Rewriting
 from bbsd.expression.vocabulary import WORDS
 from bbsd.language.field_types import is_value_name, kind_of, scalar_text
 from bbsd.language.goals import goal_mistake, is_block_of_costs, is_goal
@@ -174,6 +174,10 @@ ADVICE = {"bbsd": "write bbsd: 1", "when": "a rule has when and do, or otherwise
 
 def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
     needed = _needed(path, error)
+    if error["input"] is None and error["type"] == "not_a_decision":
+        message = f"{named(path)} has no value; it must be {needed}"
+        advice, correction = "write no action where nothing is done", Rewriting("no action", is_certain=False)
+        return Mistake(code, message, WHOLE, advice, correction)
     if error["input"] is None:
         return Mistake(code, f"{named(path)} has no value; it must be {needed}")
     hint = advice = ""
@@ -185,6 +189,8 @@ def _not_allowed(code: str, path: Path, error: ErrorDetails) -> Mistake:
         advice = f"for a value that is one of several names, write one of [{', '.join(names)}]"
     elif error["type"] == "not_an_expression" and (written := list_text(error["input"])):
         advice = f"a list is written {written}"
+        if path[:2] in STORED and written.startswith("list(") and len(error["input"]) == len(("low", "high")):
+            advice += f", a number drawn between the two {written.replace('list(', 'uniform(', 1)}"
     elif isinstance(error["input"], str) and needed.startswith("a list"):
         advice = "a list is written in brackets: [one, another]"
     return Mistake(

@@ -253,6 +253,18 @@ def times(text: str, _key: str) -> Step | None:
     return None
 
 
+def capitals(text: str, _key: str) -> Step | None:
+    """Find a name with capitals."""
+    for token in tokens(text):
+        if token.kind == "word" and token.text != token.text.lower() and token.text not in {*WORDS, "None"}:
+            new = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", token.text).lower()
+            message = f'"{token.text}" cannot be a name; names are small letters, digits and _'
+            changed = spliced(text, token.start, token.end, new)
+            length = len(token.text)
+            return Step(token.start, length, message, f"write {new}", changed, is_certain=False)
+    return None
+
+
 def power_of_square(text: str, _key: str) -> Step | None:
     """Find `²` or `³`."""
     for sign, power in (("²", 2), ("³", 3)):

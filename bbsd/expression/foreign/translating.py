@@ -19,6 +19,7 @@ from bbsd.expression.foreign.numbers import decimal_comma, percent, unit
 from bbsd.expression.foreign.signs import (
     assignment,
     bars,
+    capitals,
     comment,
     foreign_sign,
     named_argument,
@@ -67,6 +68,7 @@ RULES: tuple[Callable[[str, str], Step | None], ...] = (
     if_first,
     without_else,
     times,
+    capitals,
 )
 """What is searched, in this order: what moves parts of a text stands behind what makes them readable."""
 

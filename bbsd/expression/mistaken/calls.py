@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from bbsd.expression.scope import Definition, Named, PerRobot
 from bbsd.expression.syntax.mistakes import Rewriting
 from bbsd.expression.syntax.text import number_text, render
-from bbsd.expression.syntax.tree import Binary, Call, Generator, Name, Number
+from bbsd.expression.syntax.tree import Binary, Call, Generator, Index, Number, names_used, parts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,12 +91,20 @@ def from_first_to_last(generator: Generator, function: str) -> Instead | None:
 
 def of_all_robots(expr: Expr, function: str, scope: Scope) -> Instead | None:
     """Return what is said of an aggregate of one robot's value, where that of all robots is meant; else None."""
-    if not isinstance(expr, Name) or scope.robots == 1 or scope.behavior:
+    if scope.robots == 1 or any(isinstance(part, Index | Generator) for part in (expr, *parts(expr))):
         return None
-    if not isinstance(scope.names.get(expr.name), PerRobot) or expr.name in scope.local:
+    names = [name for name in sorted(names_used(expr)) if isinstance(scope.names.get(name), PerRobot)]
+    names = [name for name in names if name not in scope.local]
+    if not names:
         return None
-    new = f"{expr.name}[r] for r in team"
-    advice = f"{expr.name} is this robot's alone; for all robots, write {function}({new})"
+    of_each = re.sub(rf"\b({'|'.join(names)})\b", r"\1[r]", render(expr))
+    new = f"{of_each} for r in team"
+    if scope.behavior:
+        sensor = f"team_{names[0]}: {function}({new})"
+        return Instead(
+            f"a behavior knows its own robot alone: make a sensor, such as {sensor}, and use that", None
+        )
+    advice = f"{names[0]} is this robot's alone; for all robots, write {function}({new})"
     return Instead(advice, Rewriting(new, expr.span, is_certain=False))
 
 

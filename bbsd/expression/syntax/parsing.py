@@ -216,7 +216,8 @@ class _Builder:
             raise self.refuse(node, "BB051", f"the language does not have {value}", advice)
         if not isinstance(value, int | float):
             what = "text" if isinstance(value, str | bytes) else repr(value)
-            raise self.refuse(node, "BB051", f"the language does not have {what} here")
+            advice = "begin with a number or a truth, such as 0 or -1" if value is None else ""
+            raise self.refuse(node, "BB051", f"the language does not have {what} here", advice)
         try:
             number = float(value)
         except OverflowError:

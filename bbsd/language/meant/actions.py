@@ -6,8 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.syntax.mistakes import WHOLE
 from bbsd.language.field_types import scalar_text
-from bbsd.language.meant.edits.layout import STEP, column, correction
+from bbsd.language.meant.edits.layout import STEP, begins_line, column, correction, lines
+from bbsd.language.meant.forms import named_blocks
 from bbsd.text.nodes import Mapping, Scalar
 
 if TYPE_CHECKING:
@@ -102,4 +104,30 @@ def _edits_of_effects(reading: Reading, path: Path, effects: dict[str, Data]) ->
     if any(NEEDS_LINE.search(scalar_text(value) or "") or "[" in name for name, value in effects.items()):
         indent = " " * (column(source, key.start) + STEP)
         return [source.edit(key.end, node.end, ":" + "".join(f"\n{indent}{text}" for text in texts))]
-    return [source.edit(node.start, node.end, f"{{{', '.join(texts)}}}")]
+    if not begins_line(source, node.start):
+        return [source.edit(node.start, node.end, f"{{{', '.join(texts)}}}")]
+    break_ = "\n" + " " * column(source, node.start)
+    return [source.edit(node.start, node.end, break_.join(texts))]
+
+
+ASSIGNED = re.compile(
+    r"\s*(?P<key>[a-z]\w*(?:\([\w, ]*\))?)(?P<sign>\s*(?::=|<-|=(?!=))\s*)(?P<value>\S.*?)\s*(?:#.*)?"
+)
+
+
+def blocks_of_assignments(reading: Reading) -> None:
+    """Read a block of nothing but lines as `dt = 0.1`, one text for YAML, as the mapping that it means."""
+    for path in named_blocks(reading):
+        node, source = reading.node(path), reading.document(path).source
+        if not isinstance(reading.at(path), str) or not isinstance(node, Scalar) or node.style:
+            continue
+        found = [(at, ASSIGNED.fullmatch(line)) for at, line in lines(source, node.start, node.end)]
+        matches = [(at, match) for at, match in found if match is not None]
+        if len(matches) < len(found) or not begins_line(source, node.start):
+            continue
+        edits = [source.edit(at + each.start("sign"), at + each.end("sign"), ": ") for at, each in matches]
+        first = matches[0][1]
+        message = "a key is divided from its value by a colon, not by an equality sign"
+        written = correction(reading.document(path), edits)
+        reading.tell(path, "BB022", message, f"write {first['key']}: {first['value']}", written, WHOLE)
+        reading.replace(path, {each["key"]: each["value"] for _, each in matches})

@@ -51,7 +51,12 @@ def _partitions(reading: Reading) -> list[Path]:
 def cells_as_lists(reading: Reading) -> None:
     """Read named cells, and inputs with partitions of their own, that are lists of `- name: ...` as mappings."""
     inputs: list[Path] = [("behaviors", name, "inputs") for name in reading.mapping(("behaviors",))]
-    for path in [*inputs, *_partitions(reading)]:
+    actions: list[Path] = [
+        ("behaviors", name, "actions", action)
+        for name in reading.mapping(("behaviors",))
+        for action in reading.mapping(("behaviors", name, "actions"))
+    ]
+    for path in [*inputs, *_partitions(reading), *actions]:
         value = reading.at(path)
         if not isinstance(value, list) or not value or not all(isinstance(item, dict) for item in value):
             continue
@@ -147,6 +152,8 @@ def conditions_as_inputs(reading: Reading) -> None:
     for behavior in [*reading.mapping(("behaviors",))]:
         path: Path = ("behaviors", behavior, "inputs")
         value = reading.at(path)
+        if isinstance(value, str):
+            _listed(reading, path, re.split(r"[\s,;]+", value.strip()))
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
             continue
         texts = [str(item) for item in value]
@@ -173,6 +180,16 @@ def conditions_as_inputs(reading: Reading) -> None:
             [] if is_listed else [((name,), (at,)) for at, name in enumerate(names)]
         )
         reading.replace(path, new, parts)
+
+
+def _listed(reading: Reading, path: Path, names: list[str]) -> None:
+    """Read a text that names inputs as the list of them."""
+    if not all(map(NAME.match, names)):
+        return
+    new = f"[{', '.join(names)}]"
+    message = "inputs must be a list, also of one: a list is written in brackets"
+    reading.tell(path, "BB022", message, f"write inputs: {new}", Rewriting(new, WHOLE), WHOLE)
+    reading.set(path, [*names])
 
 
 def _named_as(reading: Reading, text: str) -> str:

@@ -13,6 +13,7 @@ from bbsd.expression.syntax.mistakes import ExpressionError, Rewriting
 from bbsd.expression.syntax.parsing import parse
 from bbsd.language.meant.edits.layout import MAX_CHARACTERS, STEP
 from bbsd.language.meant.forms import NAMED
+from bbsd.language.meant.names import LAMBDA
 from bbsd.language.validation import validate
 from bbsd.text import read
 from bbsd.text.writing.scalars import scalar_text
@@ -53,6 +54,13 @@ def _foreign(diagnosis: Diagnosis, source: Source) -> Diagnosis:
     value = edit.text[1:-1]
     if (below := _below_its_key(diagnosis, edit, value, source)) is not None:
         return below
+    if match := LAMBDA.fullmatch(value):
+        key = _key_before(edit, source)
+        start = source.line(edit.line).index(key) + 1
+        new = f"{key}({match['parameters']}): {match['value']}"
+        message = "a definition has its parameters in its key, and is its value"
+        edits = (edit._replace(column=start, text=new),)
+        return replace(diagnosis, message=message, advice=f"write {new}", correction=Correction(edits))
     try:
         parse(value)
     except ExpressionError as error:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.language.meant.actions import effects_as_texts
+from bbsd.language.meant.actions import blocks_of_assignments, effects_as_texts
 from bbsd.language.meant.cells import (
     cells_as_lists,
     conditions_as_inputs,
@@ -46,6 +46,7 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     options_of_commands,
     other_names,
     wrong_block,
+    blocks_of_assignments,
     lists_of_named,
     cells_as_lists,
     without_place,

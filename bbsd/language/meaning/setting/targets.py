@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -32,9 +33,22 @@ class Target(NamedTuple):
     indices: tuple[Expr, ...] = ()
 
 
+CALLED = re.compile(r"([a-z]\w*)\(([\w, ]+)\)")
+"""A key that names an element as in MATLAB: `grid(y, x)`."""
+
+
 @lru_cache(maxsize=1024)
 def read_target(key: str) -> Target | Mistake:
     """Return what a key of an action names, or what is wrong with it; its spans count characters of the key."""
+    if called := CALLED.fullmatch(key):
+        new = called[1] + "".join(f"[{index.strip()}]" for index in called[2].split(","))
+        return Mistake(
+            "BB134",
+            f"an element is set as name[index], not as {key}",
+            KEY,
+            f"write {new}",
+            Rewriting(new, KEY),
+        )
     if "[" not in key:
         return Target(key)
     try:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bbsd.errors import did_you_mean, nearest
 from bbsd.expression.scope import Findings
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
+from bbsd.expression.syntax.tree import Call, Name
 from bbsd.language.meaning.tables.naming import bounds_of, cells_named, meant_cell
 from bbsd.language.meaning.tables.table import NO_ACTION, OPEN_CELL, Inputs, Table
 from bbsd.language.models import NO_ACTION_TEXT, OPEN, Otherwise, Rule
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Path
     from bbsd.expression.syntax.tree import Span
     from bbsd.language.meaning.tables.labels import Labels
-    from bbsd.language.models import Spec
+    from bbsd.language.models import PartitionText, Spec
 
 MAX_MATCHED = 30_000_000
 """Cells that all rules of a behavior match, each counted once a rule that matches it."""
@@ -69,7 +70,9 @@ def table_of_rules(
         fresh = [cell for cell in _cells_of_block(matched, sizes) if undecided[cell]]
         if not fresh:
             message = "this rule never applies: the rules before it decide all its cells"
-            findings.report((*path, index), "BB037", message)
+            is_behind = any(isinstance(each, Otherwise) for each in (rules or ())[:index])
+            advice = "otherwise decides all that is left: write it last" if is_behind else ""
+            findings.report((*path, index), "BB037", message, WHOLE, advice)
         for cell in fresh:
             given[cell], undecided[cell] = decision, 0
     return Table(bytes(given))
@@ -154,9 +157,27 @@ def _no_input(name: str, behavior: str, spec: Spec) -> tuple[str, Span, str, Rew
     inputs = spec.behaviors[behavior].inputs
     if isinstance(inputs, dict):
         return message, KEY, f"add it to the inputs of {behavior}: {name}: {name}", None
+    cut = next((own for own in inputs if _is_cut_of(spec.environment.sensors.get(own), name)), "")
+    if cut:
+        return (
+            f"{message}, which sees it cut: {cut}",
+            KEY,
+            f"write {cut}",
+            Rewriting(cut, KEY, is_certain=False),
+        )
     wanted = f"[{', '.join([*inputs, name])}]"
     written = Rewriting(wanted, is_certain=False, at=("behaviors", behavior, "inputs"))
     return message, KEY, f"write inputs: {wanted}", written
+
+
+def _is_cut_of(sensor: PartitionText | None, name: str) -> bool:
+    """Return whether a sensor cuts a number with a name into cells."""
+    if sensor is None or isinstance(sensor, dict) or not isinstance(sensor.tree, Call):
+        return False
+    first = sensor.tree.arguments[:1]
+    return sensor.tree.function in ("cut", "values") and [
+        each.name for each in first if isinstance(each, Name)
+    ] == [name]
 
 
 def _inputs_advice(inputs: Inputs) -> str:
