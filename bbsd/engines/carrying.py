@@ -87,6 +87,8 @@ class _Carrying:
 
     def _receive(self, task: Task, future: Future[Result]) -> None:
         self._going -= 1
+        if task in self._carried.failed:
+            return  # what was not written before leaves a gap that nothing may be written behind
         try:
             finished = task.take(future.result())
             self._lost.pop(task, None)

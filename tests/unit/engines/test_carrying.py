@@ -117,6 +117,20 @@ def test_after_an_error_nothing_new_is_begun_and_what_comes_back_is_written(requ
     assert slow.written[-1] == slow.so_far
 
 
+def test_nothing_is_written_behind_what_could_not_be_written(request_):
+    class FailingOnce(Counting):
+        def write(self):
+            error, self.error = self.error, None
+            if error:
+                raise error
+            super().write()
+
+    task = FailingOnce("first", 5, error := OSError("the disk fails"))
+    carried = carry_out(ThreadsEngine(1), iter([task]), request_)
+    assert carried == ([], {task: error})
+    assert task.written == []  # although the unit that was submitted before comes back
+
+
 def test_a_stop_request_ends_all_and_gives_nobody_up(request_):
     engine = ThreadsEngine(1, lambda unit: request_.make() or True)
     assert carry_out(engine, iter([Counting("one", 3), Counting("two", 1)]), request_) == ([], {})
