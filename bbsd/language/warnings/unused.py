@@ -20,6 +20,9 @@ WORDS = {
     "sensors": "sensor",
 }
 
+IN_TRACES = ("definitions", "sensors")
+"""Blocks whose values are worth a look in a trace, also where nothing uses them."""
+
 
 def unused_names(uses: Uses) -> Iterator[LocatedMistake]:
     """Yield a warning for each name that does not come to matter."""
@@ -36,4 +39,7 @@ def unused_names(uses: Uses) -> Iterator[LocatedMistake]:
                 message = f"the {word} {name} is used only by {shown}"
             elif name in uses.needs.get(name, ()):
                 message = f"the {word} {name} is used only to compute itself"
-            yield path, Mistake("BB201", message, KEY, "use it where it was meant, or leave it out")
+            advice = "use it where it was meant, or leave it out"
+            if path[-2] in IN_TRACES and "(" not in str(path[-1]):
+                advice += ", unless it is for evaluate --trace alone"
+            yield path, Mistake("BB201", message, KEY, advice)
