@@ -82,11 +82,18 @@ def _exactness(meaning: Meaning, nodes: Sequence[Node]) -> Mapping[int, Exactnes
     start, after = meaning.episode.start, meaning.episode.after
     order = needed([*nodes, *start.values(), *after.values()])
     slots: dict[Slot, Exactness] = dict.fromkeys(start, Exactness.EXACT)
+    found: dict[int, Exactness] = {}
     for _ in range(min(MOST_PASSES, MOST_LOOKS // len(order))):
-        found: dict[int, Exactness] = {}
+        changed = set[int]()
         for node in order:
+            is_same = changed.isdisjoint([each.number for each in node.operands])
+            if node.number in found and node.operation != "slot" and is_same:
+                continue
             operands = [found[each.number] for each in node.operands if each.kind is Kind.NUMBER]
-            found[node.number] = _exactness_of(meaning, node, operands, slots)
+            exactness = _exactness_of(meaning, node, operands, slots)
+            if found.get(node.number) is not exactness:
+                found[node.number] = exactness
+                changed.add(node.number)
         then = {slot: min(found[start[slot].number], found[after[slot].number]) for slot in slots}
         if then == slots:
             return found
