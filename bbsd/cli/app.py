@@ -45,15 +45,13 @@ LISTED = {
     ),
     "export": Listed(
         "bbsd.cli.export:export",
-        "Write a design in another language, to be used in a program of your own.",
+        "Write a design in another language, for your own program.",
     ),
     "check": Listed(
         "bbsd.cli.writing.check:check",
-        "Report all mistakes in specs, each at its line and column, and what they probably do not mean to say.",
+        "Report all mistakes in specs, and what is probably not meant.",
     ),
-    "fmt": Listed(
-        "bbsd.cli.writing.fmt:fmt", "Format specs in one style: indentation, spaces, blank lines and quotes."
-    ),
+    "fmt": Listed("bbsd.cli.writing.fmt:fmt", "Format specs in one style."),
     "config": Listed("bbsd.cli.writing.config:config", "Print a spec with all defaults filled in."),
     "compile": Listed(
         "bbsd.cli.writing.compile:compile_", "Print the kernel that a spec is compiled to, as Python source."

@@ -83,7 +83,7 @@ def export(
     seed: Seed = 0,
     overrides: Overrides = None,
 ) -> None:
-    """Write a design in another language, to be used in a program of your own.
+    """Write a design in another language, for your own program.
 
     The file decides from the cells of the behaviors' inputs: your program tells it which cells its sensors are in, and
     it answers with the action of the behavior that controls. It needs nothing else. With --sensing it computes the

@@ -89,7 +89,8 @@ def test_a_check_imports_only_what_it_uses():
     assert not {name for name in imported if name.startswith(LATE)}
 
 
-def test_no_plugin_of_pydantic_is_imported(tmp_path):
+def test_no_plugin_of_pydantic_is_imported(tmp_path, monkeypatch):
+    monkeypatch.delenv("PYDANTIC_DISABLE_PLUGINS", raising=False)
     known = tmp_path / "planted-1.0.dist-info"
     known.mkdir()
     (known / "METADATA").write_text("Metadata-Version: 2.1\nName: planted\nVersion: 1.0\n")

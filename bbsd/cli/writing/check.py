@@ -68,9 +68,9 @@ def check(
         ),
     ] = None,
 ) -> None:
-    """Report all mistakes in specs, each at its line and column, and what they probably do not mean to say.
+    """Report all mistakes in specs, and what is probably not meant.
 
-    Says which cells and layers are open to design.
+    Each is told at its line and column. Says which cells and layers are open to design.
     Exits with code 2 if there are mistakes, with --fix if some remain; warnings alone change the code with --strict.
     """
     if diff and not fix:

@@ -30,9 +30,9 @@ def fmt(
     ] = False,
     diff: Annotated[bool, typer.Option("--diff", help="Write nothing; print the changes as a diff.")] = False,
 ) -> None:
-    """Format specs in one style: indentation, spaces, blank lines and quotes.
+    """Format specs in one style.
 
-    The data of a file, its comments and its order stay the same.
+    Indentation, spaces, blank lines and quotes. The data of a file, its comments and its order stay the same.
     """
     codes = [_format(spec, check=check, diff=diff) for spec in specs]
     if code := max(codes):
