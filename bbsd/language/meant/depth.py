@@ -1,12 +1,18 @@
-"""Blocks at the wrong depth: children that are not indented, and keys that are indented too far."""
+"""Blocks at the wrong depth: children that are not indented, and keys that are indented too far or too little."""
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
+from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.syntax.parsing import NAME, parse
+from bbsd.expression.syntax.tree import names_used
 from bbsd.language.base import holds_block
+from bbsd.language.goals import is_goal
 from bbsd.language.keys import fields_at
 from bbsd.language.meant.edits.layout import STEP, column, correction, moved, shifted, stretch
+from bbsd.language.meant.words import ENVIRONMENT, TOP
 from bbsd.language.validation import named
 
 if TYPE_CHECKING:
@@ -149,5 +155,84 @@ def _take_out(reading: Reading, path: Path, block: str, key: str) -> None:
         f"{key} is indented too far: it stands in {block}, and belongs {where}",
         f"begin it in the column of {block}",
         correction(reading.document(old), moved(reading, old, path)),
+    )
+    reading.move(old, new)
+
+
+def too_shallow(reading: Reading) -> None:
+    """Put keys that stand beside the block above them, and can only belong to it, below it."""
+    for path in [*blocks(reading)]:
+        above: str | None = None
+        for key in [*reading.mapping(path)]:
+            if above is not None and _belongs_above(reading, path, key, above):
+                _put_above(reading, path, key, above)
+            else:
+                above = key
+
+
+def _belongs_above(reading: Reading, path: Path, key: str, above: str) -> bool:
+    """Return whether a key that has no place in a block has one in the entry above it, which has none of that name."""
+    value, block = reading.at((*path, key)), (*path, above)
+    inner = reading.mapping(block)
+    if not inner or key in inner or key in (fields_at(path) or ()) or is_goal((*path, key)):
+        return False
+    if (path == () and key in TOP) or (path == ("environment",) and key in ENVIRONMENT):
+        return False
+    if path == ("behaviors",):
+        own = fields_at(block) or {}
+        is_behavior = isinstance(value, dict) and not own.keys().isdisjoint(value)
+        return key in own and not is_behavior and not own.keys().isdisjoint(inner)
+    if path[2:] == ("actions",):
+        is_value = value is not None and not isinstance(value, dict | list)
+        return is_value and key in reading.mapping(("environment", "state"))
+    if path[:1] == ("behaviors",):
+        state = reading.mapping(("environment", "state"))
+        return above == "actions" and isinstance(value, dict) and bool(value) and value.keys() <= state.keys()
+    if path == ("environment",) and above in BLOCKS_OF_EXPRESSIONS:
+        stored = {**reading.mapping((*path, "state")), **reading.mapping((*path, "world"))}
+        is_listed = _is_used(reading, key) and not isinstance(value, list)
+        return key in stored if above == "dynamics" else is_listed
+    if path == () and above == "behaviors":
+        own = fields_at(("behaviors", key)) or {}
+        return isinstance(value, dict) and "actions" in value and value.keys() <= own.keys()
+    if path == () and above == "reward":
+        return _is_term(reading, value)
+    return path == () and above == "constants" and not isinstance(value, dict) and _is_used(reading, key)
+
+
+def _is_term(reading: Reading, value: Data) -> bool:
+    """Return whether a text is an expression of what a spec knows, as the terms of its reward are."""
+    if not isinstance(value, str) or not reads(value):
+        return False
+    inner = ("state", "world", "sensors", "definitions")
+    known = {name for block in inner for name in reading.mapping(("environment", block))}
+    return not names_used(parse(value)).isdisjoint(known)
+
+
+def _is_used(reading: Reading, name: str) -> bool:
+    """Return whether a name stands in a value somewhere, or in a key of rules."""
+    word = re.compile(rf"(?<![\w.]){re.escape(name)}(?![\w(])")
+    return NAME.match(name) is not None and _has(reading.data, word)
+
+
+def _has(data: Data, word: re.Pattern[str]) -> bool:
+    if isinstance(data, dict):
+        return any(_has(value, word) for value in data.values())
+    if isinstance(data, list):
+        return any(_has(item, word) for item in data)
+    return isinstance(data, str) and word.search(data) is not None
+
+
+def _put_above(reading: Reading, path: Path, key: str, above: str) -> None:
+    old, new = (*path, key), (*path, above, key)
+    document = reading.document(old)
+    where = named(path) if path else "the top level"
+    place = f"among the {where}" if path == ("behaviors",) else f"in {where}" if path else f"at {where}"
+    reading.tell(
+        old,
+        "BB140",
+        f"{key} is indented too little: it stands {place}, and belongs to {above}",
+        f"begin it in the column of the keys of {above}",
+        correction(document, moved(reading, old, (*path, above))),
     )
     reading.move(old, new)

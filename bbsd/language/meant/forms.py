@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
+from bbsd.expression.syntax.mistakes import WHOLE
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
 from bbsd.language.meant.edits.layout import STEP, begins_line, column, correction
@@ -13,7 +13,7 @@ from bbsd.language.validation import named
 from bbsd.text.nodes import Mapping, Scalar, Sequence
 
 if TYPE_CHECKING:
-    from bbsd.errors import Correction, Edit
+    from bbsd.errors import Edit
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
     from bbsd.text import Data
@@ -187,47 +187,6 @@ def single_reward(reading: Reading) -> None:
         path, "BB022", message, f"write a name before it: term: {text}", correction(document, edits), WHOLE
     )
     reading.replace(path, {"term": value}, [(("term",), ())])
-
-
-def unordered_structure(reading: Reading) -> None:
-    """Read a structure that is a mapping with numbers, or one text, as the list that it should be."""
-    path: Path = ("structure",)
-    value = reading.at(path)
-    names = _ordered_names(value, [*reading.mapping(("behaviors",)), "open"])
-    if names is None:
-        return
-    node, document, key = reading.node(path), reading.document(path), reading.key(path)
-    listed = f"[{', '.join(names)}]"
-    written: Correction | Rewriting | None = None
-    if key is not None and isinstance(node, Mapping | Scalar):
-        source = document.source
-        end = max(key.end, node.end if not isinstance(node, Mapping) or node.flow else _last(node))
-        written = correction(document, [source.edit(key.start, end, f"structure: {listed}")])
-    message = "structure must be a list of behaviors, from the highest layer down"
-    is_below = isinstance(node, Mapping) and not node.flow
-    span = KEY if is_below else WHOLE
-    reading.tell(path, "BB022", message, f"a list is written in brackets: {listed}", written, span)
-    reading.explained.add(reading.origin(path))
-    reading.replace(path, [*names])
-
-
-def _last(node: Mapping) -> int:
-    value = [*node.entries.values()][-1].value
-    return value.end
-
-
-def _ordered_names(value: Data, known: list[str]) -> list[str] | None:
-    """Return the layers that something else than a list says, from the highest down."""
-    match value:
-        case dict() if value and all(re.fullmatch(r"\d+", key) for key in value):
-            names = [str(value[key]) for key in sorted(value, key=int)]
-        case dict() if value and all(isinstance(rank, int | float) for rank in value.values()):
-            names = sorted(value, key=lambda key: float(str(value[key])))
-        case str():
-            names = re.split(r"\s*(?:,|>|->|;|\s)\s*", value.strip())
-        case _:
-            return None
-    return names if all(name in known for name in names) else None
 
 
 def nameless_actions(reading: Reading) -> None:

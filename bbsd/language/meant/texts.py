@@ -14,6 +14,7 @@ from bbsd.expression.syntax.parsing import parse
 from bbsd.language.meant.edits.layout import MAX_CHARACTERS, STEP
 from bbsd.language.meant.forms import NAMED
 from bbsd.language.meant.names import LAMBDA
+from bbsd.language.meant.repeated import given_twice
 from bbsd.language.validation import validate
 from bbsd.text import read
 from bbsd.text.writing.scalars import scalar_text
@@ -38,12 +39,66 @@ def _refined(diagnosis: Diagnosis, document: Document) -> Diagnosis:
     source = document.source
     if diagnosis.code == "BB005":
         return replace(diagnosis, correction=_without_tabs(document))
+    if diagnosis.code == "BB006":
+        return given_twice(diagnosis, document)
+    if diagnosis.code == "BB004" and (apart := _otherwise_apart(diagnosis, document)) is not None:
+        return apart
+    if diagnosis.code == "BB004" and (above := _line_above(diagnosis, document)) is not None:
+        return above
     if diagnosis.correction is None:
         return diagnosis
     better = _foreign(diagnosis, source) if diagnosis.code == "BB004" else diagnosis
     corrections = (each.correction for each in (better, diagnosis) if each.correction is not None)
     proven = next((each for each in corrections if _helps(each.edits, document)), None)
     return replace(better, correction=proven)
+
+
+APART = re.compile(
+    r"(?P<dash>\s*- +)(?P<word>otherwise|else|default)\s*\n\s+(?P<do>do|then)\s*:\s*(?P<action>[^\n#]*[^\n#\s])"
+)
+
+
+def _otherwise_apart(diagnosis: Diagnosis, document: Document) -> Diagnosis | None:
+    """Return what is said of `- otherwise` without a colon, and `do: halt` below it; None for anything else."""
+    source = document.source
+    start = source.offset_of(diagnosis.place.line)
+    match = APART.match(source.text, start)
+    if match is None:
+        return None
+    edits = (source.edit(match.start("word"), match.end("action"), f"otherwise: {match['action']}"),)
+    message = f"{match['word']} and {match['do']} are one: what is done stands behind otherwise"
+    return replace(
+        diagnosis,
+        message=message,
+        advice=f"write - otherwise: {match['action']}",
+        correction=Correction(edits) if _helps(edits, document) else None,
+    )
+
+
+def _line_above(diagnosis: Diagnosis, document: Document) -> Diagnosis | None:
+    """Return what is said where the line above a mistake is indented too little; None where that does not help more."""
+    source, number = document.source, diagnosis.place.line
+    line, above = source.line(number), source.line(number - 1) if number > 1 else ""
+    by = len(line) - len(line.lstrip(" ")) - (len(above) - len(above.lstrip(" ")))
+    if "indented" not in diagnosis.message or not above.strip() or above.lstrip().startswith("#") or by <= 0:
+        return None
+    start = source.offset_of(number - 1)
+    edits = [source.edit(start, start, " " * by)]
+    after = read(source.edited(edits))
+    if after.diagnoses:
+        return None
+    mistakes = len(validate(after.data)[1])
+    if diagnosis.correction is not None:
+        other = read(source.edited(diagnosis.correction.edits))
+        if not other.diagnoses and len(validate(other.data)[1]) <= mistakes:
+            return None
+    column = len(above) - len(above.lstrip(" ")) + 1
+    place = diagnosis.place._replace(line=number - 1, column=column, length=max(1, len(above.strip())))
+    message = f"this line is indented too little: line {number} belongs to the same block"
+    advice = "the keys of one mapping begin in the same column"
+    return replace(
+        diagnosis, message=message, place=place, advice=advice, correction=Correction(tuple(edits))
+    )
 
 
 def _foreign(diagnosis: Diagnosis, source: Source) -> Diagnosis:

@@ -5,18 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.language.meant.actions import blocks_of_assignments, effects_as_texts
+from bbsd.language.meant.behaviors.dashes import divided_rules, otherwise_apart
+from bbsd.language.meant.behaviors.layers import unordered_structure
 from bbsd.language.meant.cells import (
     cells_as_lists,
     conditions_as_inputs,
     otherwise_by_another_name,
     ranges_as_conditions,
 )
-from bbsd.language.meant.depth import not_indented, too_deep
+from bbsd.language.meant.depth import not_indented, too_deep, too_shallow
 from bbsd.language.meant.forms import (
     lists_of_named,
     nameless_actions,
     single_reward,
-    unordered_structure,
 )
 from bbsd.language.meant.keys import methods, options_of_commands, other_names, without_place, wrong_block
 from bbsd.language.meant.names import functions, keys_of_dynamics, names
@@ -43,6 +44,9 @@ if TYPE_CHECKING:
 READINGS: tuple[Callable[[Reading], None], ...] = (
     not_indented,
     too_deep,
+    too_shallow,
+    divided_rules,
+    otherwise_apart,
     options_of_commands,
     other_names,
     wrong_block,

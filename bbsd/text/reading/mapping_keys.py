@@ -22,7 +22,8 @@ def entries_of(
 ) -> tuple[dict[str, Entry], list[Diagnosis]]:
     """Return the usable entries of a mapping by key, and the mistakes in its keys.
 
-    Of a key that is given twice the first entry is kept; a number or truth as a key is kept as it is written.
+    Of a key that is given twice the first entry is kept, with what the other has besides where both are mappings; a
+    number or truth as a key is kept as it is written.
     """
     entries: dict[str, Entry] = {}
     mistakes: list[Diagnosis] = []
@@ -31,10 +32,23 @@ def entries_of(
         if isinstance(key, Scalar):
             mistake = mistake or glued_mistake(source, key, value, flow)
             if not _is_merge(key):
-                entries.setdefault(key.text, Entry(key, value))
+                entries[key.text] = _with_more(entries.get(key.text), Entry(key, value))
         if mistake:
             mistakes.append(mistake)
     return entries, mistakes
+
+
+def _with_more(first: Entry | None, other: Entry) -> Entry:
+    """Return the first of two entries of one key, with the entries of the other that it has not."""
+    if first is None:
+        return other
+    if not isinstance(first.value, Mapping) or not isinstance(other.value, Mapping):
+        return first
+    both = {
+        **first.value.entries,
+        **{k: v for k, v in other.value.entries.items() if k not in first.value.entries},
+    }
+    return Entry(first.key, first.value._replace(entries=both))
 
 
 def _key_mistake(
