@@ -65,4 +65,16 @@ LIST_KINDS = (
             "behaviors:\n  stop:\n    actions:\n      halt:\n        waiting[1]: 0\n        waiting[2]: 3"
         ),
     ),
+    DiagnosisKind(
+        code="BB172",
+        title="a row of another length",
+        explanation=(
+            "A table is a list of rows. Where a row is chosen while episodes run, or the table is drawn as a grid, all "
+            "rows are equally long. If one is shorter or longer than all others, it is told there."
+        ),
+        example="constants:\n  room: [[0, 0], [0], [0, 1]]\nenvironment:\n  definitions:\n    wall(row): room[row][0]\n"
+        "reward:\n  clear: -wall(floor(height))",
+        mend="constants:\n  room: [[0, 0], [0, 0], [0, 1]]\nenvironment:\n  definitions:\n    wall(row): room[row][0]\n"
+        "reward:\n  clear: -wall(floor(height))",
+    ),
 )

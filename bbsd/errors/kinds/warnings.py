@@ -136,6 +136,33 @@ WARNING_KINDS = (
         mend="behaviors:\n  stop:\n    inputs:\n      reached: abs(height - 3) < 0.01",
     ),
     _warning(
+        code="BB211",
+        title="a robot that is not there",
+        explanation=(
+            "Robots count from 0, so that the last of three is robot 2. A comparison of robot with any other number "
+            "holds for no robot, or for all."
+        ),
+        example="behaviors:\n  stop:\n    excited: robot == 3",
+        mend="behaviors:\n  stop:\n    excited: robot == 2",
+    ),
+    _warning(
+        code="BB212",
+        title="a reward term that is always the same",
+        explanation=(
+            "From how the values are computed it follows that the condition of the term never holds, or always does: a "
+            "distance that is kept at 0 or above is never below 0. Where that follows from constants alone nothing is "
+            "reported, since a constant may be a switch."
+        ),
+        example=(
+            "environment:\n  dynamics:\n    height: max(height + speed, 0)\n"
+            "behaviors:\n  stop:\n    actions:\n      sink: {speed: -1}\nreward:\n  down: -1 if height < 0 else 0"
+        ),
+        mend=(
+            "environment:\n  dynamics:\n    height: max(height + speed, 0)\n"
+            "behaviors:\n  stop:\n    actions:\n      sink: {speed: -1}\nreward:\n  down: -1 if height <= 0 else 0"
+        ),
+    ),
+    _warning(
         code="BB215",
         title="a behavior in no layer",
         explanation=(

@@ -6,6 +6,22 @@ from bbsd.errors.kinds.kind import DiagnosisKind
 
 WORD_KINDS: tuple[DiagnosisKind, ...] = (
     DiagnosisKind(
+        code="BB131",
+        title="a value that starts as another kind than it is",
+        explanation=(
+            "What state or world is at the start says whether it is a number or a truth, and so it stays. A value that "
+            "starts as 0 or 1 and is a truth wherever it is set, or used, starts as false or true; and the reverse."
+        ),
+        example=(
+            "environment:\n  state:\n    late: 0\n  dynamics:\n    late: step > 5\n"
+            "reward:\n  late: -1 if late else 0"
+        ),
+        mend=(
+            "environment:\n  state:\n    late: false\n  dynamics:\n    late: step > 5\n"
+            "reward:\n  late: -1 if late else 0"
+        ),
+    ),
+    DiagnosisKind(
         code="BB136",
         title="values of a state that cannot be read",
         explanation=(

@@ -13,6 +13,7 @@ from bbsd.expression.elaboration.naming import bare_name
 from bbsd.expression.elaboration.picking import pick
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.mistaken.indices import index_of_one, value_at_a_step
 from bbsd.expression.scope import (
     Deferred,
     Definition,
@@ -149,7 +150,11 @@ def _definition(
 
 def element(expr: Index, scope: Scope, elaborate: Elaborate) -> Value:
     """Return the element of a list, or one robot's value."""
+    if (told := value_at_a_step(expr, scope, elaborate)) is not None:
+        return told
     if scope.behavior and (name := _name_of_robots(expr.of, scope, elaborate)):
+        if scope.robots == 1:
+            return index_of_one(expr, name, scope)
         return report_unseen(
             f"{name} of another robot", expr.of.span, scope, "" if scope.local else render(expr)
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count, pairwise
 from typing import TYPE_CHECKING
 
@@ -10,16 +10,17 @@ from bbsd.expression.elaboration import elaboration
 from bbsd.expression.elaboration.naming import one_reading
 from bbsd.expression.graph import Node, value_of
 from bbsd.expression.kinds import Kind
+from bbsd.expression.operations import MIRRORED
 from bbsd.expression.scope import Named
 from bbsd.expression.syntax.mistakes import KEY, Addition, Rewriting
 from bbsd.expression.syntax.text import render
-from bbsd.expression.syntax.tree import Call, Expr, Name, Span
+from bbsd.expression.syntax.tree import Call, Comparison, Expr, Name, Span
 from bbsd.language.meaning.proofs.coverage import covers_everything
 from bbsd.language.meaning.tables.labels import Labels, Numbers
 from bbsd.language.models import OTHERWISE, PartitionText
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from bbsd.expression.graph import Graph
     from bbsd.expression.scope import Path, Scope
@@ -221,6 +222,8 @@ def _named_cells(
     if any(node.kind is Kind.UNKNOWN for node in nodes):
         return None
     if not final and not covers_everything(nodes, scope.graph, scope.size):
+        if _border_is_left_out(expressions, labels, scope, path, robot):
+            return None
         message = f"{path[-1]} has no cell where none of {', '.join(labels)} holds"
         rest = next(word for word in _words_for_the_rest(len(labels)) if word not in labels)
         last, span = labels[-1], expressions[-1].tree.span
@@ -233,3 +236,40 @@ def _named_cells(
     for cell in reversed(range(len(labels) - 1)):
         index = graph.apply("select", nodes[cell], graph.cell(cell), index)
     return Partition(labels, index)
+
+
+def _border_is_left_out(
+    cells: Sequence[Expression], labels: Sequence[str], scope: Scope, path: Path, robot: int | None
+) -> bool:
+    """Report cells that leave out nothing but a number on their border, as x < 2 and x > 2; return whether they do."""
+    trees = [cell.tree for cell in cells]
+    if len(trees) > MAX_EXPLAINED:
+        return False
+    strict = {
+        (sign, render(left), render(right))
+        for tree in trees
+        if isinstance(tree, Comparison)
+        for sign, (left, right) in zip(tree.operators, pairwise(tree.operands), strict=True)
+    }
+    for number in reversed(range(len(trees))):
+        tree = trees[number]
+        if not isinstance(tree, Comparison):
+            continue
+        for place, sign in enumerate(tree.operators):
+            left, right = map(render, tree.operands[place : place + 2])
+            if sign not in ("<", ">") or not strict & {(MIRRORED[sign], left, right), (sign, right, left)}:
+                continue
+            operators = (*tree.operators[:place], f"{sign}=", *tree.operators[place + 1 :])
+            looser = replace(tree, operators=operators)
+            nodes = [
+                elaboration.truth(each, scope.at((*path, label), robot, draws=scope.draws is not None))
+                for each, label in zip((*trees[:number], looser, *trees[number + 1 :]), labels, strict=True)
+            ]
+            if covers_everything(nodes, scope.graph, scope.size):
+                new, others = render(looser), " and ".join(dict.fromkeys(map(render, trees)))
+                message = f"{path[-1]} has no cell where {left} == {right}: {others} leave it out"
+                correction = Rewriting(new, tree.span, is_certain=False)
+                inner = scope.at((*path, labels[number]), robot)
+                inner.mistake("BB032", message, tree.span, f"let one of them take it: {new}", correction)
+                return True
+    return False

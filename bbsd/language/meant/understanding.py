@@ -13,6 +13,10 @@ from bbsd.language.meant.cells import (
     otherwise_by_another_name,
     ranges_as_conditions,
 )
+from bbsd.language.meant.declared.definitions import parameters_not_written, rows_of_other_lengths
+from bbsd.language.meant.declared.extended import behaviors_of_the_base
+from bbsd.language.meant.declared.sensed import what_is_sensed, what_the_world_has
+from bbsd.language.meant.declared.starts import fractions_as_indices, truths_as_numbers
 from bbsd.language.meant.depth import not_indented, too_deep, too_shallow
 from bbsd.language.meant.forms import (
     lists_of_named,
@@ -80,6 +84,13 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     names,
     names_at_the_start,
     sensors_named_as_state,
+    behaviors_of_the_base,
+    parameters_not_written,
+    rows_of_other_lengths,
+    fractions_as_indices,
+    truths_as_numbers,
+    what_is_sensed,
+    what_the_world_has,
 )
 """What is read as something else, in this order: where blocks stand, then what they are, then what is in them."""
 MAX_CHARACTERS = 300_000

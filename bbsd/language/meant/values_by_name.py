@@ -11,6 +11,7 @@ from bbsd.expression.vocabulary import CONSTANTS
 from bbsd.language.field_types import is_value_name, scalar_text, signature
 from bbsd.language.meant.edits.layout import correction
 from bbsd.language.meant.edits.uses import uses
+from bbsd.language.validation import child
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,7 +24,8 @@ SENSORS: Path = ("environment", "sensors")
 MEASURED = re.compile(r"\s*(?:cut|values)\s*\(")
 
 
-def _known(reading: Reading) -> set[str]:
+def known_names(reading: Reading) -> set[str]:
+    """Return the names that stand for a value in expressions, without those of a state's values."""
     blocks: list[Path] = [("constants",), *(("environment", key) for key in ("world", "state", "sensors"))]
     known = {name for block in blocks for name in reading.mapping(block)}
     known |= {name for key in reading.mapping(("environment", "definitions")) for name in signature(key)[:1]}
@@ -46,7 +48,7 @@ def _texts(data: Data) -> Iterator[str]:
 
 def names_at_the_start(reading: Reading) -> None:
     """Read `mode: idle`, and `mode: [idle, search]`, as one of the names that the state is set to or compared with."""
-    known = _known(reading)
+    known = known_names(reading)
     for block in ("state", "world"):
         for name, value in [*reading.mapping(("environment", block)).items()]:
             path: Path = ("environment", block, name)
@@ -73,9 +75,10 @@ def _is_free(value: Data, known: set[str]) -> bool:
 
 
 def _used(reading: Reading, state: str, first: str, known: set[str]) -> list[str]:
-    """Return the names that a state begins with, is set to and is compared with, in the order of the spec."""
+    """Return the names that a state begins with, has as cells in rules, is compared with and is set to."""
     compared = re.compile(rf"(?<![\w.]){re.escape(state)}\s*[=!]=\s*['\"]?([a-z]\w*)")
-    found = [first, *(match[1] for text in _texts(reading.data) for match in compared.finditer(text))]
+    found = [first, *_cells(reading, state)]
+    found += [match[1] for text in _texts(reading.data) for match in compared.finditer(text)]
     effects = [reading.mapping(("environment", "dynamics"))]
     for behavior in reading.mapping(("behaviors",)):
         actions: Path = ("behaviors", behavior, "actions")
@@ -85,6 +88,18 @@ def _used(reading: Reading, state: str, first: str, known: set[str]) -> list[str
         arms = re.split(r"\bif\b.*?\belse\b", text)
         found += [arm.strip(" ()") for arm in arms]
     return [name for name in dict.fromkeys(found) if _is_free(name, known) and NAME.match(name)]
+
+
+def _cells(reading: Reading, state: str) -> Iterator[str]:
+    """Yield the cells that rules name of a state that is an input."""
+    for behavior in reading.mapping(("behaviors",)):
+        rules = reading.at(("behaviors", behavior, "rules"))
+        for rule in rules if isinstance(rules, list) else ():
+            when = child(rule, "when")
+            cells = when.get(state) if isinstance(when, dict) else None
+            yield from (
+                str(cell) for cell in (cells if isinstance(cells, list) else [cells]) if cell is not None
+            )
 
 
 def sensors_named_as_state(reading: Reading) -> None:
@@ -98,7 +113,7 @@ def sensors_named_as_state(reading: Reading) -> None:
         new = f"{name}_is" if is_cut else f"sensed_{name}"
         first: Path = ("environment", block, name)
         key, document = reading.key(path), reading.document(path)
-        if new in _known(reading) or key is None:
+        if new in known_names(reading) or key is None:
             continue
         edits = [document.source.edit(key.start, key.end, new)]
         for place in _places(reading, name, is_cut=is_cut):

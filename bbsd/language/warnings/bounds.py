@@ -130,7 +130,7 @@ class Bounds:
             case "literal":
                 return (float(value_of(node)),) * 2
             case "slot":
-                return slots.get(node.slot, _of_kind(node.kind))
+                return _within_kind(slots.get(node.slot, _of_kind(node.kind)), node.kind)
             case "constant":
                 return self._constants[node.index]
             case "gather":
@@ -181,6 +181,12 @@ def _is_unknown(interval: Interval) -> bool:
 
 def _of_kind(kind: Kind) -> Interval:
     return TRUTH if kind is Kind.TRUTH else ALL
+
+
+def _within_kind(interval: Interval, kind: Kind) -> Interval:
+    """Return bounds within those of a kind: what grows step by step counts as unlimited, and a truth does not grow."""
+    low, high = interval
+    return (max(low, 0.0), min(high, 1.0)) if kind is Kind.TRUTH else interval
 
 
 def _compared(operation: str, left: Interval, right: Interval) -> Interval:

@@ -10,8 +10,9 @@ from bbsd.language.warnings.influence import uninfluenced_terms
 from bbsd.language.warnings.left_out import left_out_behaviors
 from bbsd.language.warnings.proving import Prover
 from bbsd.language.warnings.reach import unreached_cells
-from bbsd.language.warnings.robots import robots_alike
+from bbsd.language.warnings.robots import absent_robots, robots_alike
 from bbsd.language.warnings.rounding import rounded_equalities
+from bbsd.language.warnings.terms import settled_terms
 from bbsd.language.warnings.undecided import undecided_cells
 from bbsd.language.warnings.unset import unset_values
 from bbsd.language.warnings.unused import unused_names
@@ -34,6 +35,9 @@ def warnings_of(meaning: Meaning) -> Iterator[LocatedMistake]:
     yield from left_out_behaviors(meaning)
     yield from robots_alike(meaning)
     yield from uninfluenced_terms(meaning)
-    yield from vain_conditions(meaning, prover)
+    absent = [*absent_robots(meaning)]
+    yield from absent
+    yield from vain_conditions(meaning, prover, {path for path, _ in absent})
+    yield from settled_terms(meaning, prover)
     yield from unreached_cells(meaning, prover)
     yield from rounded_equalities(meaning)

@@ -1,18 +1,24 @@
-"""Robots that can only do the same."""
+"""Robots that can only do the same, and robots that are not there."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from bbsd.expression.graph import needed
-from bbsd.expression.syntax.mistakes import WHOLE, Mistake
+from bbsd.expression.syntax.mistakes import WHOLE, Mistake, Rewriting
+from bbsd.expression.syntax.text import number_text
+from bbsd.expression.syntax.tree import Comparison, Expr, Name, Number, parts
+from bbsd.language.base import Part
+from bbsd.language.field_types import Expression
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator, Mapping
 
     from bbsd.expression.graph import Node
     from bbsd.expression.node_data import Slot
+    from bbsd.expression.scope import Path
     from bbsd.language.meaning import Meaning
+    from bbsd.language.models import Spec
     from bbsd.language.validation import LocatedMistake
 
 
@@ -66,3 +72,48 @@ def _classes(nodes: list[Node]) -> dict[int, int]:
             key = (node.operation,)
         classes[node.number] = first.setdefault(key, node.number)
     return classes
+
+
+def absent_robots(meaning: Meaning) -> Iterator[LocatedMistake]:
+    """Yield a warning for each comparison of robot with a number that no robot has."""
+    robots = meaning.spec.environment.robots
+    for path, tree in expressions_of(meaning.spec):
+        for part in _parts_of(tree):
+            match part:
+                case Comparison(operators=("==" | "!=",), operands=operands):
+                    number = next((each for each in operands if isinstance(each, Number)), None)
+                    is_robot = any(isinstance(each, Name) and each.name == "robot" for each in operands)
+                case _:
+                    continue
+            if number is None or not is_robot or (0 <= number.value < robots and number.value.is_integer()):
+                continue
+            has = "robot is 0, the only one" if robots == 1 else f"robot is one of 0 to {robots - 1}"
+            message = f"there is no robot {number_text(number.value)}: they count from 0, and {has}"
+            last = Rewriting(str(robots - 1), number.span, is_certain=False)
+            correction = last if number.value == robots else None
+            yield path, Mistake("BB211", message, number.span, f"the last is robot {robots - 1}", correction)
+
+
+def expressions_of(spec: Spec) -> Iterator[tuple[Path, Expr]]:
+    """Yield the expressions of environment, behaviors and reward, with their paths."""
+    for key, value in spec.values_by_key().items():
+        if key in ("environment", "behaviors", "reward", "expects"):
+            yield from _expressions((key,), value)
+
+
+def _expressions(path: Path, value: object) -> Iterator[tuple[Path, Expr]]:
+    match value:
+        case Expression():
+            yield path, value.tree
+        case Part():
+            for key, inner in value.values_by_key().items():
+                yield from _expressions((*path, key), inner)
+        case dict():
+            for key, inner in value.items():
+                yield from _expressions((*path, key), inner)
+
+
+def _parts_of(tree: Expr) -> Iterator[Expr]:
+    yield tree
+    for part in parts(tree):
+        yield from _parts_of(part)

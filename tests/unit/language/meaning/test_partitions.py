@@ -1,7 +1,8 @@
 import pytest
 
 from bbsd.expression.graph import Node, evaluate
-from tests.unit.language.specs import codes, meaning_of
+from bbsd.language.loading import check
+from tests.unit.language.specs import codes, meaning_of, source
 
 
 def cells(partition: str) -> tuple[str, ...]:
@@ -77,3 +78,23 @@ behaviors:
     module = meaning_of(part).episode.modules[0]
     assert len(module.inputs["reached"]) == 6
     assert isinstance(module.cells[0][0], Node)
+
+
+@pytest.mark.parametrize(
+    ("cells", "message", "written"),
+    [
+        ("{low: height < 2, high: height > 2}", "no cell where height == 2", "height >= 2"),
+        ("{low: 2 > height, high: height > 2}", "no cell where height == 2", "height >= 2"),
+        (
+            "{low: height < 2, mid: 2 < height < 3, high: height >= 3}",
+            "no cell where 2 == height",
+            "2 <= height < 3",
+        ),
+        ("{low: height < 2, high: height > 2.5}", "no cell where none of low, high holds", "neither"),
+        ("{low: height < 2, mid: 2 < height < 3, high: height > 3}", "no cell where none of", "rest"),
+    ],
+)
+def test_a_border_that_no_cell_takes(cells: str, message: str, written: str) -> None:
+    (mistake,) = check(source(f"behaviors: {{stop: {{inputs: {{at: {cells}}}}}}}"))
+    assert message in mistake.message
+    assert mistake.correction is None or written in mistake.correction.edits[0].text

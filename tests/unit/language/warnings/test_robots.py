@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from bbsd.language.loading import check
+from bbsd.language.loading import check, load
 from tests.unit.language.specs import source
 
 SAME = "environment: {state: {height: 2, speed: 0}, dynamics: {height: HEIGHT}, world: {wind: 0}}"
@@ -45,3 +45,19 @@ def test_a_start_or_a_sensor_makes_them_differ() -> None:
 def test_one_robot_is_not_compared() -> None:
     same = SAME.replace("HEIGHT", "height + speed").replace("{state", "{robots: 1, sensors: null, state")
     assert not are_alike(same)
+
+
+@pytest.mark.parametrize(
+    ("excited", "robots", "message"),
+    [
+        ("robot == 3", 3, "there is no robot 3: they count from 0, and robot is one of 0 to 2"),
+        ("4 != robot", 3, "there is no robot 4: they count from 0, and robot is one of 0 to 2"),
+        ("robot == 1", 1, "there is no robot 1: they count from 0, and robot is 0, the only one"),
+        ("robot == 2", 3, None),
+        ("robot < 3", 3, None),
+    ],
+)
+def test_a_robot_that_is_not_there(excited: str, robots: int, message: str | None) -> None:
+    part = f"environment: {{robots: {robots}}}\nbehaviors: {{stop: {{excited: {excited}}}}}"
+    told = [each.message for each in load(source(part)).warnings if each.code in ("BB209", "BB211")]
+    assert told == ([] if message is None else [message])

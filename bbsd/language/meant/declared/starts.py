@@ -1,0 +1,224 @@
+"""State and world that start as something else than they are used as: numbers for truths, fractions for indices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.expression.syntax.mistakes import WHOLE, Rewriting
+from bbsd.expression.syntax.text import render
+from bbsd.expression.syntax.tree import (
+    Binary,
+    Call,
+    Comparison,
+    Conditional,
+    Expr,
+    Generator,
+    Index,
+    Logical,
+    Name,
+    Number,
+    Truth,
+    Unary,
+    parts,
+)
+from bbsd.language.meant.declared.trees import (
+    CHANGES,
+    STORED,
+    effects,
+    indices,
+    is_whole,
+    names_unrounded,
+    parsed,
+    trees,
+)
+from bbsd.language.meant.edits.layout import correction
+from bbsd.text.nodes import Scalar
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.expression.scope import Path
+    from bbsd.language.meant.reading import Reading
+
+MOST_SHOWN = 4
+"""Uses whose lines are told."""
+OF_TRUTHS = ("chance", "any", "all")
+
+
+def fractions_as_indices(reading: Reading) -> None:
+    """Read `x: uniform(0, 4)` as a whole number, where x is an index and all that sets it keeps it whole."""
+    starts = [
+        (block, name, parsed(value)) for block in STORED for name, value in reading.mapping(block).items()
+    ]
+    drawn = [
+        (block, name, start)
+        for block, name, start in starts
+        if isinstance(start, Call) and start.function == "uniform" and len(start.arguments) == 2
+    ]
+    if not drawn:
+        return
+    uses: dict[str, list[Path]] = {}
+    for path, index, _ in indices(reading, [*trees(reading)]):
+        for name in names_unrounded(index):
+            uses.setdefault(name, []).append(path)
+    whole = {
+        name
+        for name, value in reading.mapping(("constants",)).items()
+        if is_whole(parsed(value), frozenset())
+    }
+    whole |= {name for _, name, start in starts if is_whole(start, frozenset(whole))}
+    whole |= {name for _, name, _ in drawn if name in uses}
+    for block, name, start in drawn:
+        if name not in uses or not all(
+            is_whole(tree, frozenset(whole)) for _, tree in effects(reading, name)
+        ):
+            continue
+        path, first, last = (*block, name), *start.arguments
+        is_between_whole = all(is_whole(each, frozenset(whole)) for each in (first, last))
+        new = f"integers({render(first)}, {render(last)})" if is_between_whole else f"round({render(start)})"
+        message = f"{render(start)} need not be a whole number, and {name} is used as an index"
+        written = Rewriting(new, WHOLE, is_certain=False)
+        seen = tuple(map(reading.origin, uses[name]))
+        reading.tell(path, "BB064", message, f"write {name}: {new}", written, WHOLE, seen)
+        reading.set(path, new)
+
+
+def truths_as_numbers(reading: Reading) -> None:
+    """Read a value that starts as 0 or 1 as a truth where it is one everywhere else, and the reverse."""
+    for block in STORED:
+        for name, value in [*reading.mapping(block).items()]:
+            start = _element(parsed(value))
+            if not isinstance(start, Number | Truth) or start.value not in (0, 1):
+                continue
+            path, other = (*block, name), "truth" if isinstance(start, Number) else "number"
+            set_to, uses = [*effects(reading, name)], [*_uses(reading, name)]
+            kinds = {_kind(tree) for _, tree in set_to}
+            used = [where for where, kind in uses if kind == other]
+            if not set_to or len(used) < sum(kind != "" for _, kind in uses):
+                continue
+            if kinds == {other} and (used or any(where[:2] == CHANGES for where, _ in set_to)):
+                _tell(reading, path, start, [where for where, _ in set_to], [])
+            elif other == "truth" and all(_is_bit(tree) for _, tree in set_to):
+                used = [where for where in used if where[-1] != "inputs"]
+                if used:
+                    _tell(reading, path, start, used, [where for where, _ in set_to])
+
+
+def _tell(reading: Reading, path: Path, start: Number | Truth, seen: list[Path], changed: list[Path]) -> None:
+    """Tell that a value starts as the wrong kind; what `changed` sets to 0 or 1 becomes a truth too."""
+    name, is_number = path[-1], isinstance(start, Number)
+    edits, document = [], reading.document(path)
+    for each in (path, *changed):
+        node, tree = reading.node(each), _element(parsed(reading.at(each)))
+        if not isinstance(node, Scalar) or not isinstance(tree, Number | Truth) or not node.is_plain:
+            return
+        begin = node.start + tree.span.start
+        new = _other(tree)
+        if reading.document(each) is document:
+            edits.append(document.source.edit(begin, begin + tree.span.length, new))
+    for each in (path, *changed):
+        tree, text = _element(parsed(reading.at(each))), _text(reading, each)
+        if isinstance(tree, Number | Truth):
+            at, length = tree.span
+            reading.set(each, text[:at] + _other(tree) + text[at + length :])
+    first, second = ("a number", "a truth") if is_number else ("a truth", "a number")
+    where = "used as" if changed else "set to"
+    message = f"{name} starts as {first}, {render(start)}, and is {where} {second} everywhere else"
+    advice = f"a truth starts as {_other(start)}" if is_number else f"a number starts as {_other(start)}"
+    written = correction(document, edits, is_certain=False)
+    places = tuple(map(reading.origin, seen[:MOST_SHOWN]))
+    reading.tell(path, "BB131", message, advice, written, WHOLE, places)
+
+
+def _text(reading: Reading, path: Path) -> str:
+    """Return a scalar of the data as it is written."""
+    node = reading.node(path)
+    return node.text if isinstance(node, Scalar) else ""
+
+
+def _other(tree: Number | Truth) -> str:
+    if isinstance(tree, Number):
+        return "true" if tree.value else "false"
+    return "1" if tree.value else "0"
+
+
+def _is_bit(tree: Expr | None) -> bool:
+    return isinstance(tree, Number) and tree.value in (0, 1)
+
+
+def _element(tree: Expr | None) -> Expr | None:
+    """Return what the elements of a list are, or the value itself."""
+    while isinstance(tree, Call) and tree.function == "list":
+        match tree.arguments:
+            case (Generator(element=element),):
+                tree = element
+            case _:
+                return tree
+    return tree
+
+
+def _kind(tree: Expr | None) -> str:
+    """Return whether an expression is a truth or a number, "" where that depends on names."""
+    match _element(tree):
+        case Truth() | Comparison() | Logical() | Unary(operator="not"):
+            return "truth"
+        case Call(function=function) if function in OF_TRUTHS:
+            return "truth"
+        case Call(function="list"):
+            return ""
+        case Number() | Binary() | Unary():
+            return "number"
+        case Conditional(then=then, otherwise=otherwise):
+            return _kind(then) or _kind(otherwise)
+    return ""
+
+
+def _uses(reading: Reading, name: str) -> Iterator[tuple[Path, str]]:
+    """Yield the paths of expressions that use a value, and as what: "truth", "number" or "" where that is open."""
+    for path, tree in trees(reading):
+        alone = "truth" if path[-1] in ("excited", "ends") else "number" if path[0] == "reward" else ""
+        for kind in _kinds_of_uses(tree, name, alone):
+            yield path, kind
+    for behavior in reading.mapping(("behaviors",)):
+        path = ("behaviors", behavior, "inputs")
+        inputs = reading.at(path)
+        listed = (
+            inputs if isinstance(inputs, list) else [*inputs.values()] if isinstance(inputs, dict) else []
+        )
+        if name in listed:
+            yield path, "truth"
+
+
+def _kinds_of_uses(tree: Expr, name: str, wanted: str) -> Iterator[str]:
+    """Yield as what a value is used in an expression of which something is wanted."""
+    of = tree
+    while isinstance(of, Index):
+        yield from _kinds_of_uses(of.index, name, "number")
+        of = of.of
+    match of:
+        case Name(name=own):
+            if own == name:
+                yield wanted
+            return
+        case Logical() | Unary(operator="not"):
+            wanted = "truth"
+        case Binary() | Unary():
+            wanted = "number"
+        case Comparison(operands=operands):
+            compared = [_kind(each) for each in operands]
+            wanted = "truth" if "truth" in compared else "number"
+        case Call(function=function):
+            wanted = (
+                wanted
+                if function in ("before", "list")
+                else "truth"
+                if function in ("any", "all")
+                else "number"
+            )
+        case Conditional(condition=condition, then=then, otherwise=otherwise):
+            yield from _kinds_of_uses(condition, name, "truth")
+            for arm in (then, otherwise):
+                yield from _kinds_of_uses(arm, name, wanted)
+            return
+    for part in parts(of):
+        yield from _kinds_of_uses(part, name, wanted)

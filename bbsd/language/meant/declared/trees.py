@@ -1,0 +1,159 @@
+"""All expressions of a spec's data that can be read, and what in them is used as an index."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.syntax.parsing import parse
+from bbsd.expression.syntax.tree import (
+    Binary,
+    Call,
+    Conditional,
+    Expr,
+    Index,
+    Name,
+    Number,
+    Unary,
+    names_used,
+    parts,
+)
+from bbsd.language.field_types import scalar_text, signature
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bbsd.expression.scope import Path
+    from bbsd.language.meant.reading import Reading
+    from bbsd.text import Data
+
+ENVIRONMENT = ("state", "world", "dynamics", "definitions", "sensors", "ends")
+OF_BEHAVIORS = ("excited", "expects", "inputs", "actions")
+STORED: tuple[Path, ...] = (("environment", "state"), ("environment", "world"))
+CHANGES: Path = ("environment", "dynamics")
+DEFINITIONS: Path = ("environment", "definitions")
+MAX_TEXT = 2_000
+"""Characters of an expression up to which it is looked into."""
+
+
+def parsed(value: Data) -> Expr | None:
+    """Return the tree of a value that is an expression; None for anything else."""
+    text = scalar_text(value)
+    return parse(text) if text is not None and len(text) <= MAX_TEXT and reads(text) else None
+
+
+def trees_of_behaviors(reading: Reading) -> Iterator[tuple[Path, Expr]]:
+    """Yield the expressions of all behaviors with their paths."""
+    for behavior in reading.mapping(("behaviors",)):
+        for key in OF_BEHAVIORS:
+            path: Path = ("behaviors", behavior, key)
+            value = reading.at(path)
+            if not isinstance(value, list):
+                yield from _below(path, value)
+
+
+def trees(reading: Reading) -> Iterator[tuple[Path, Expr]]:
+    """Yield the expressions of what is computed in a step, and of behaviors, with their paths."""
+    for key in ENVIRONMENT:
+        path: Path = ("environment", key)
+        yield from _below(path, reading.at(path))
+    for block in ("reward", "expects"):
+        yield from _below((block,), reading.at((block,)))
+    yield from trees_of_behaviors(reading)
+
+
+def _below(path: Path, value: Data) -> Iterator[tuple[Path, Expr]]:
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _below((*path, key), inner)
+    elif value is not None and (tree := parsed(value)) is not None:
+        yield path, tree
+
+
+def effects(reading: Reading, name: str) -> Iterator[tuple[Path, Expr | None]]:
+    """Yield what dynamics and actions set a value or elements of it to, None where that cannot be read."""
+    blocks: list[Path] = [CHANGES]
+    for behavior in reading.mapping(("behaviors",)):
+        actions: Path = ("behaviors", behavior, "actions")
+        blocks += [(*actions, action) for action in reading.mapping(actions)]
+    for block in blocks:
+        for key, value in reading.mapping(block).items():
+            if key.partition("[")[0].strip() == name:
+                yield (*block, key), parsed(value)
+
+
+def within(tree: Expr) -> Iterator[Expr]:
+    """Yield an expression and all its parts."""
+    yield tree
+    for part in parts(tree):
+        yield from within(part)
+
+
+def indices(reading: Reading, found: list[tuple[Path, Expr]]) -> Iterator[tuple[Path, Expr, Expr | None]]:
+    """Yield what stands as an index, with its path and what is indexed: in expressions, keys of actions and calls.
+
+    An argument of a definition stands as an index where its parameter does; of it, None is indexed.
+    """
+    indexing: dict[str, set[int]] = {}
+    for key in reading.mapping(DEFINITIONS):
+        name, *parameters = signature(key) or ("",)
+        tree = parsed(reading.at((*DEFINITIONS, key)))
+        used = [each.index for each in within(tree) if isinstance(each, Index)] if tree and parameters else []
+        names = {own for each in used for own in names_unrounded(each)}
+        indexing[name] = {place for place, own in enumerate(parameters) if own in names}
+    for path, tree in found:
+        own = [*within(tree)]
+        key_at = path[-1]
+        if isinstance(key_at, str) and "[" in key_at and (target := parsed(key_at)) is not None:
+            own += within(target)
+        for part in own:
+            if isinstance(part, Index):
+                yield path, part.index, part.of
+            elif isinstance(part, Call) and part.function in indexing:
+                for place in sorted(indexing[part.function]):
+                    if place < len(part.arguments):
+                        yield path, part.arguments[place], None
+
+
+def names_unrounded(tree: Expr) -> frozenset[str]:
+    """Return the names of which an expression is a sum, or nothing else: whole only where they are."""
+    match tree:
+        case Name(name=name):
+            return frozenset({name})
+        case Binary(operator="+" | "-", left=left, right=right):
+            return names_unrounded(left) | names_unrounded(right)
+        case Unary(operator="-", operand=operand):
+            return names_unrounded(operand)
+    return frozenset()
+
+
+WHOLE_OPERATORS = ("+", "-", "*", "//", "%")
+WHOLE_FUNCTIONS = ("min", "max", "abs", "clip")
+ROUNDING = ("floor", "ceil", "round", "integers", "sign")
+
+
+def is_whole(tree: Expr | None, names: frozenset[str]) -> bool:
+    """Return whether a value is certainly whole where the given names are."""
+    match tree:
+        case Number(value=value):
+            return value.is_integer()
+        case Name(name=name):
+            return name in names
+        case Unary(operator="-" | "+", operand=operand):
+            return is_whole(operand, names)
+        case Binary(operator=operator, left=left, right=right) if operator in WHOLE_OPERATORS:
+            return is_whole(left, names) and is_whole(right, names)
+        case Conditional(then=then, otherwise=otherwise):
+            return is_whole(then, names) and is_whole(otherwise, names)
+        case Call(function=function) if function in ROUNDING:
+            return True
+        case Call(function=function, arguments=arguments) if function in WHOLE_FUNCTIONS:
+            return all(is_whole(each, names) for each in arguments)
+    return False
+
+
+def unknown_names(tree: Expr, known: set[str]) -> list[str]:
+    """Return the names of an expression that nothing has, in the order in which they are written."""
+    unknown = names_used(tree) - known
+    written = [part for part in within(tree) if isinstance(part, Name) and part.name in unknown]
+    return [*dict.fromkeys(part.name for part in sorted(written, key=lambda part: part.span.start))]
