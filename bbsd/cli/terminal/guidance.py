@@ -113,8 +113,8 @@ def _explain(error: Any, words: list[str], commands: Any) -> None:  # noqa: ANN4
     """Say in an error's message what is probably meant."""
     option = getattr(error, "option_name", None)
     message = str(error.message)
-    if option is not None and option in words:
-        error.message = _unknown_option(option, words, commands)
+    if option is not None and (option in words or any(word.startswith(f"{option}=") for word in words)):
+        error.message = _unknown_option(option, _apart(option, words), commands)
         error.possibilities = None
     elif match := re.search(EXTRA, message):
         error.message = _spaces(match["words"].split(), words)
@@ -129,6 +129,12 @@ def _explain(error: Any, words: list[str], commands: Any) -> None:  # noqa: ANN4
         error.message = f'"{shown(given)}" is none of {", ".join(choices)}{hint}'
 
 
+def _apart(option: str, words: list[str]) -> list[str]:
+    """Return a command line with the value of an option as a word of its own, where it stands behind `=`."""
+    at = next((at for at, word in enumerate(words) if word.startswith(f"{option}=")), None)
+    return words if at is None else [*words[:at], *words[at].split("=", 1), *words[at + 1 :]]
+
+
 def _unknown_option(option: str, words: list[str], commands: Any) -> str:  # noqa: ANN401 - Typer's own types
     from bbsd.language.keys import blocks_with
 
@@ -140,7 +146,7 @@ def _unknown_option(option: str, words: list[str], commands: Any) -> str:  # noq
         behind = words[at + 2 :] if value != "..." else words[at + 1 :]
         path = f"{blocks[0]}.{key}"
         command = _command(*words[:at], *behind, "--set", f"{path}={value}")
-        return f"there is no option {option}; {key} is set by --set {path}=...: {command}"
+        return f"there is no option {option}; {key} is set by --set {path}={shown(value)}: {command}"
     command = commands.get(words[0])
     known = [name for parameter in command.params for name in parameter.opts] if command else []
     others = [

@@ -235,7 +235,9 @@ def _name_of_robots(of: Expr, scope: Scope, elaborate: Elaborate) -> str | None:
         return None
     if not isinstance(scope.names.get(of.name), PerRobot | Definition):
         return None
-    return None if isinstance(name_value(of, scope, elaborate), tuple) else of.name
+    value = name_value(of, scope, elaborate)
+    is_unknown = isinstance(value, Node) and value.kind is Kind.UNKNOWN
+    return None if isinstance(value, tuple) or is_unknown else of.name
 
 
 def _no_element(index: float, length: int, at: Expr, scope: Scope) -> Node:
@@ -254,6 +256,8 @@ def _pick(items: tuple[Value, ...], index: Node, at: Expr, scope: Scope) -> Valu
     if not items:
         return scope.mistake("BB057", "an empty list has no elements", at.span)
     if is_plain_number(at) and not 0 <= value_of(index) < len(items):
+        if all(isinstance(item, Node) and item.kind is Kind.UNKNOWN for item in items):
+            return scope.graph.unknown
         return _no_element(value_of(index), len(items), at, scope)
     if not index.literal and len({_shape(item) for item in items}) > 1:
         if any(isinstance(item, Node) and item.kind is Kind.UNKNOWN for item in items):

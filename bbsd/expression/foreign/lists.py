@@ -88,6 +88,10 @@ def two_indices(text: str, _key: str) -> Step | None:
         if read is None or len(read[0]) < 2 or not all(map(reads, read[0])):
             continue
         new, end = "".join(f"[{index}]" for index in read[0]), found[read[1]].end
+        if found[at - 1].text == "list":
+            new = f"list({', '.join(read[0])})"
+            message = "list is called with parentheses"
+            return replacing(text, found[at - 1].start, end, new, message, f"write {new}")
         message = "each index of a list of lists has brackets of its own"
         return replacing(text, token.start, end, new, message, f"write {new}")
     return None
@@ -246,3 +250,17 @@ def list_in_brackets(text: str, _key: str) -> Step | None:
         message = "a list is not written in brackets alone"
         return replacing(text, token.start, stop, new, message, f"write {new}")
     return None
+
+
+def tuple_of_values(text: str, _key: str) -> Step | None:
+    """Find `(8, 8)`, and `8, 8` as a whole text."""
+    found = tokens(text)
+    is_bare = bool(found) and (found[0].text != "(" or closing(found, 0) != len(found) - 1)
+    inner = f"({text})" if is_bare else text
+    read = arguments(inner, tokens(inner), 0) if found else None
+    if read is None or len(read[0]) < 2 or not all(map(reads, read[0])):
+        return None
+    new = f"list({', '.join(read[0])})"
+    return Step(
+        0, len(text), "a list is not written with commas alone", f"write {new}", new, is_certain=False
+    )

@@ -194,6 +194,25 @@ def quotes(text: str, _key: str) -> Step | None:
     return Step(len(first), 1, message, 'leave them out, or write "..."', f"{first}{inner[1:-1]}")
 
 
+IN_QUOTES = re.compile(r"""'(?P<a>[^']*)'|"(?P<b>[^"]*)"|[“„”«‘‚](?P<c>[^“”„«»‘’‚]*)[”“»’‘]""")
+PLAIN = re.compile(r"[a-z]\w*\Z|-?\d+(?:\.\d+)?\Z")
+
+
+def quoted(text: str, _key: str) -> Step | None:
+    """Find a name or a number in quotes: `mode == 'clean'`."""
+    match = IN_QUOTES.search(text)
+    if match is None:
+        return None
+    inner = (match["a"] or match["b"] or match["c"] or "").strip()
+    message = "there is no text in expressions: names of values stand without quotes"
+    length = match.end() - match.start()
+    if not PLAIN.match(inner):
+        advice = "write a condition of the number itself, such as sonar < 0.2"
+        return Step(match.start(), length, message, advice, None)
+    new = spliced(text, match.start(), match.end(), inner)
+    return Step(match.start(), length, message, f"write {inner}", new, is_certain=False)
+
+
 def comment(text: str, _key: str) -> Step | None:
     """Find a comment of C, or one of MATLAB, behind an expression, or one without a blank before it."""
     for mark in ("#", "//", "/*", "--", "%", ";"):

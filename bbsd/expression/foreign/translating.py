@@ -13,6 +13,7 @@ from bbsd.expression.foreign.lists import (
     membership,
     repeated,
     slice_of_list,
+    tuple_of_values,
     two_indices,
 )
 from bbsd.expression.foreign.numbers import decimal_comma, percent, unit
@@ -24,6 +25,7 @@ from bbsd.expression.foreign.signs import (
     foreign_sign,
     named_argument,
     power_of_square,
+    quoted,
     quotes,
     times,
 )
@@ -69,6 +71,8 @@ RULES: tuple[Callable[[str, str], Step | None], ...] = (
     without_else,
     times,
     capitals,
+    quoted,
+    tuple_of_values,
 )
 """What is searched, in this order: what moves parts of a text stands behind what makes them readable."""
 
@@ -123,4 +127,8 @@ def _difference(text: str, new: str, is_certain: bool) -> Rewriting:
     end = 0
     while end < min(len(text), len(new)) - start and text[-1 - end] == new[-1 - end]:
         end += 1
+    if start == 0 and end == len(text):
+        return Rewriting(
+            new, Span(0, len(text)), is_certain
+        )  # what is only put before it has no span of its own
     return Rewriting(new[start : len(new) - end], Span(start, len(text) - end - start), is_certain)

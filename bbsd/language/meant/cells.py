@@ -92,7 +92,7 @@ def ranges_as_conditions(reading: Reading) -> None:
         found = [
             (name, condition)
             for name, value in cells.items()
-            if (condition := _condition(scalar_text(value) or "", _number(reading, path)))
+            if (condition := condition_of_range(scalar_text(value) or "", _number(reading, path)))
         ]
         if not found:
             continue
@@ -110,7 +110,7 @@ def ranges_as_conditions(reading: Reading) -> None:
             reading.set((*path, cell), new)
 
 
-def _condition(text: str, number: str) -> str:
+def condition_of_range(text: str, number: str) -> str:
     """Return what a range asks of a number; nothing for a text that is none."""
     for pattern, form in RANGES:
         if match := pattern.fullmatch(text.strip()):

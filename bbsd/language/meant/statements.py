@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from pydantic_core import PydanticCustomError
 
+from bbsd.errors import nearest
 from bbsd.expression.foreign.tokens import reads
 from bbsd.expression.mistaken.cells import draws_again
 from bbsd.expression.syntax.mistakes import WHOLE, ExpressionError, Rewriting
+from bbsd.expression.syntax.one_of import is_one_of
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.text import number_text, render
 from bbsd.expression.syntax.tree import Call, Comparison, Expr, Logical, Name, Number, Span, Truth, Unary
@@ -198,6 +200,45 @@ def cells_as_texts(reading: Reading) -> None:
             span,
         )
         reading.replace(path, text[: match.start()] + new + text[match.end() :])
+
+
+QUOTED = re.compile(r"""(?P<quote>['"])(?P<name>[a-z]\w*)(?P=quote)""")
+
+
+def values_in_quotes(reading: Reading) -> None:
+    """Read `mode == 'clean'` without the quotes, where that is a name that the spec knows."""
+    known = _names_of_values(reading)
+    for path in _places_of_expressions(reading):
+        text = reading.at(path)
+        found = [*QUOTED.finditer(text)] if isinstance(text, str) else []
+        meant = {match["name"]: nearest(match["name"], sorted(known)) for match in found}
+        if not isinstance(text, str) or not all(meant.values()):
+            continue
+        new = text
+        for name, right in meant.items():
+            new = re.sub(rf"(['\"]){name}\1", right, new)
+        if not found or not reads(new):
+            continue
+        start, end = found[0].start(), found[-1].end()
+        written = new[start : len(new) - (len(text) - end)]
+        span = Span(start, end - start)
+        message = "there is no text in expressions: names of values stand without quotes"
+        wrong = next((name for name in meant if name not in known), "")
+        if wrong:
+            message += f", and {wrong} is none: did you mean {meant[wrong]}?"
+        advice = f"write {meant[found[0]['name']]}"
+        reading.tell(path, "BB051", message, advice, Rewriting(written, span, not wrong), span)
+        reading.replace(path, new)
+
+
+def _names_of_values(reading: Reading) -> set[str]:
+    """Return the names that states and world can have as values."""
+    found: set[str] = set()
+    for block in ("state", "world"):
+        for text in reading.mapping(("environment", block)).values():
+            if isinstance(text, str) and is_one_of(text):
+                found |= {*re.findall(r"\w+", text.partition("]")[0].partition("[")[2])}
+    return found
 
 
 def _condition(reading: Reading, path: Path, name: str, label: str) -> str | None:

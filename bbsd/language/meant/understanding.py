@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bbsd.language.meant.actions import blocks_of_assignments, effects_as_texts
+from bbsd.language.meant.behaviors.conditions import cells_as_conditions
 from bbsd.language.meant.behaviors.dashes import divided_rules, otherwise_apart
 from bbsd.language.meant.behaviors.layers import unordered_structure
 from bbsd.language.meant.cells import (
@@ -24,11 +25,17 @@ from bbsd.language.meant.forms import (
     single_reward,
 )
 from bbsd.language.meant.keys import methods, options_of_commands, other_names, without_place, wrong_block
+from bbsd.language.meant.lists import lists_as_expressions
 from bbsd.language.meant.names import functions, keys_of_dynamics, names
 from bbsd.language.meant.picture import places
 from bbsd.language.meant.reading import Reading
 from bbsd.language.meant.rules import decisions, mapping_of_rules, parts_of_rules
-from bbsd.language.meant.statements import cells_as_texts, conditions_as_expressions, if_statements
+from bbsd.language.meant.statements import (
+    cells_as_texts,
+    conditions_as_expressions,
+    if_statements,
+    values_in_quotes,
+)
 from bbsd.language.meant.values import (
     blocks_of_costs,
     end_of_one_robot,
@@ -78,7 +85,10 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     end_of_one_robot,
     if_statements,
     conditions_as_expressions,
+    cells_as_conditions,
     cells_as_texts,
+    values_in_quotes,
+    lists_as_expressions,
     functions,
     keys_of_dynamics,
     names,

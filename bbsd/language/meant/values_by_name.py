@@ -52,6 +52,8 @@ def names_at_the_start(reading: Reading) -> None:
     for block in ("state", "world"):
         for name, value in [*reading.mapping(("environment", block)).items()]:
             path: Path = ("environment", block, name)
+            if isinstance(value, str) and value[:1] in ("'", '"') and value[-1:] == value[:1]:
+                value = value[1:-1]  # noqa: PLW2901 - quotes in quotes are no part of a name
             if isinstance(value, list) and len(value) > 1 and all(_is_free(item, known) for item in value):
                 found = [str(item) for item in value]
             elif _is_free(value, known) and isinstance(value, str):

@@ -62,6 +62,7 @@ CERTAIN = {
     "a + b)": "a + b",
     "0  // meters a second": "0  # meters a second",
     "x;": "x",
+    "list[8, 8]": "list(8, 8)",
     "a // b && c": "a // b and c",
     "abs(robots[1].x - x) < 0.5": "abs(x[1] - x) < 0.5",
     "self.x + 1": "x + 1",
@@ -80,8 +81,14 @@ PERHAPS = {
     "2x": "2 * x",
     "a // cell size": "a # cell size",
     "min(a, b + c": "min(a, b + c)",
+    "mode == 'clean'": "mode == clean",
+    "mode == “clean”": "mode == clean",
+    "mode is 'clean'": "mode == clean",
+    "mode in ['clean', 'home']": "mode == clean or mode == home",
+    "(8, 8)": "list(8, 8)",
+    "8, 8": "list(8, 8)",
 }
-UNCLEAR = ["a b", "a ? 1", "zone == 'x'", "(a", "x.y", "lambda: 1", "a +"]
+UNCLEAR = ["a b", "a ? 1", "zone == 'below 0.2'", "(a", "x.y", "lambda: 1", "a +"]
 
 
 @pytest.mark.parametrize(("text", "new"), CERTAIN.items())
