@@ -27,23 +27,19 @@ def parameters_not_written(reading: Reading) -> None:
         return
     found = [*trees(reading)]
     known = known_names(reading) | {name for _, tree in found for name in _values(tree)}
+    calls: dict[str, list[tuple[Path, Call]]] = {}
+    for path, tree in found:
+        for part in within(tree):
+            if isinstance(part, Call):
+                calls.setdefault(part.function, []).append((path, part))
     for key in [*block]:
         name, *parameters = signature(key) or ("",)
-        tree = parsed(block[key])
-        calls = [
-            (path, part)
-            for path, each in found
-            for part in within(each)
-            if isinstance(part, Call) and part.function == name
-        ]
-        numbers = {len(call.arguments) for _, call in calls}
-        if (
-            tree is None
-            or len(numbers) != 1
-            or any(isinstance(a, Generator) for _, c in calls for a in c.arguments)
-        ):
+        own, called = parsed(block[key]), calls.get(name, ())
+        numbers = {len(call.arguments) for _, call in called}
+        is_of_values = not any(isinstance(each, Generator) for _, call in called for each in call.arguments)
+        if own is None or len(numbers) != 1 or not is_of_values:
             continue
-        wanted = [each for each in unknown_names(tree, known) if each not in parameters]
+        wanted = [each for each in unknown_names(own, known) if each not in parameters]
         number = numbers.pop()
         if not wanted or number != len(parameters) + len(wanted) or not all(map(is_value_name, wanted)):
             continue
@@ -53,10 +49,10 @@ def parameters_not_written(reading: Reading) -> None:
         verb = "are names" if len(wanted) > 1 else "is a name"
         message = f"{name} {has}, but {names} in it {verb} of nothing, and it is called with {arguments}"
         written = Rewriting(new, KEY, is_certain=False)
-        seen = tuple(dict.fromkeys(reading.origin(path) for path, _ in calls))
-        path = (*DEFINITIONS, key)
-        reading.tell(path, "BB054", message, f"parameters stand behind the name: {new}", written, KEY, seen)
-        reading.rename(path, new)
+        seen = tuple(dict.fromkeys(reading.origin(path) for path, _ in called))
+        at = (*DEFINITIONS, key)
+        reading.tell(at, "BB054", message, f"parameters stand behind the name: {new}", written, KEY, seen)
+        reading.rename(at, new)
 
 
 def _values(tree: Expr) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from bbsd.errors import nearest
 from bbsd.expression.syntax.mistakes import KEY
 from bbsd.language.meant.edits.layout import correction
 from bbsd.language.validation import child
+from bbsd.text.nodes import Scalar, Sequence
 
 if TYPE_CHECKING:
     from bbsd.expression.scope import Path
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from bbsd.text import Data
 
 BEHAVIORS: Path = ("behaviors",)
+STRUCTURE: Path = ("structure",)
 
 
 def behaviors_of_the_base(reading: Reading) -> None:
@@ -32,7 +34,13 @@ def behaviors_of_the_base(reading: Reading) -> None:
         if not near:
             continue
         key, document = reading.key(path), reading.document(path)
-        edits = None if key is None else [document.source.edit(key.start, key.end, near)]
+        edits = [] if key is None else [document.source.edit(key.start, key.end, near)]
+        layers = own.node(STRUCTURE)
+        edits += [
+            document.source.edit(layer.start, layer.end, near)
+            for layer in (layers.items if edits and isinstance(layers, Sequence) else ())
+            if isinstance(layer, Scalar) and layer.text == name
+        ]
         file = FilePath(based[near].source.file).name
         message = f'{file} has no behavior "{name}"; did you mean "{near}"?'
         advice = "a behavior of its own needs actions; one of the base keeps those that it has there"

@@ -24,6 +24,7 @@ from bbsd.expression.syntax.tree import (
 from bbsd.language.meant.declared.trees import (
     CHANGES,
     STORED,
+    by_name,
     effects,
     indices,
     is_whole,
@@ -35,12 +36,12 @@ from bbsd.language.meant.edits.layout import correction
 from bbsd.text.nodes import Scalar
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
 
-MOST_SHOWN = 4
+MOST_SHOWN = 6
 """Uses whose lines are told."""
 OF_TRUTHS = ("chance", "any", "all")
 
@@ -68,40 +69,46 @@ def fractions_as_indices(reading: Reading) -> None:
     }
     whole |= {name for _, name, start in starts if is_whole(start, frozenset(whole))}
     whole |= {name for _, name, _ in drawn if name in uses}
+    set_to = effects(reading)
     for block, name, start in drawn:
-        if name not in uses or not all(
-            is_whole(tree, frozenset(whole)) for _, tree in effects(reading, name)
-        ):
+        sets = set_to.get(name, ())
+        if name not in uses or not all(is_whole(tree, frozenset(whole)) for _, tree in sets):
             continue
         path, first, last = (*block, name), *start.arguments
         is_between_whole = all(is_whole(each, frozenset(whole)) for each in (first, last))
         new = f"integers({render(first)}, {render(last)})" if is_between_whole else f"round({render(start)})"
         message = f"{render(start)} need not be a whole number, and {name} is used as an index"
         written = Rewriting(new, WHOLE, is_certain=False)
-        seen = tuple(map(reading.origin, uses[name]))
+        seen = tuple(map(reading.origin, dict.fromkeys(uses[name])))[:MOST_SHOWN]
         reading.tell(path, "BB064", message, f"write {name}: {new}", written, WHOLE, seen)
         reading.set(path, new)
 
 
 def truths_as_numbers(reading: Reading) -> None:
     """Read a value that starts as 0 or 1 as a truth where it is one everywhere else, and the reverse."""
-    for block in STORED:
-        for name, value in [*reading.mapping(block).items()]:
-            start = _element(parsed(value))
-            if not isinstance(start, Number | Truth) or start.value not in (0, 1):
-                continue
-            path, other = (*block, name), "truth" if isinstance(start, Number) else "number"
-            set_to, uses = [*effects(reading, name)], [*_uses(reading, name)]
-            kinds = {_kind(tree) for _, tree in set_to}
-            used = [where for where, kind in uses if kind == other]
-            if not set_to or len(used) < sum(kind != "" for _, kind in uses):
-                continue
-            if kinds == {other} and (used or any(where[:2] == CHANGES for where, _ in set_to)):
-                _tell(reading, path, start, [where for where, _ in set_to], [])
-            elif other == "truth" and all(_is_bit(tree) for _, tree in set_to):
-                used = [where for where in used if where[-1] != "inputs"]
-                if used:
-                    _tell(reading, path, start, used, [where for where, _ in set_to])
+    starts = [
+        ((*block, name), start)
+        for block in STORED
+        for name, value in reading.mapping(block).items()
+        if isinstance(start := _element(parsed(value)), Number | Truth) and start.value in (0, 1)
+    ]
+    if not starts:
+        return
+    set_to, users, inputs = effects(reading), by_name(trees(reading)), _inputs(reading)
+    for path, start in starts:
+        name = str(path[-1])
+        sets, other = set_to.get(name, []), "truth" if isinstance(start, Number) else "number"
+        uses = [*_uses(users.get(name, ()), name), *((where, "truth") for where in inputs.get(name, ()))]
+        kinds = {_kind(tree) for _, tree in sets}
+        used = [where for where, kind in uses if kind == other]
+        if not sets or len(used) < sum(kind != "" for _, kind in uses):
+            continue
+        if kinds == {other} and (used or any(where[:2] == CHANGES for where, _ in sets)):
+            _tell(reading, path, start, [where for where, _ in sets], [])
+        elif other == "truth" and all(_is_bit(tree) for _, tree in sets):
+            used = [where for where in used if where[-1] != "inputs"]
+            if used:
+                _tell(reading, path, start, used, [where for where, _ in sets])
 
 
 def _tell(reading: Reading, path: Path, start: Number | Truth, seen: list[Path], changed: list[Path]) -> None:
@@ -173,20 +180,25 @@ def _kind(tree: Expr | None) -> str:
     return ""
 
 
-def _uses(reading: Reading, name: str) -> Iterator[tuple[Path, str]]:
+def _uses(found: Iterable[tuple[Path, Expr]], name: str) -> Iterator[tuple[Path, str]]:
     """Yield the paths of expressions that use a value, and as what: "truth", "number" or "" where that is open."""
-    for path, tree in trees(reading):
+    for path, tree in found:
         alone = "truth" if path[-1] in ("excited", "ends") else "number" if path[0] == "reward" else ""
         for kind in _kinds_of_uses(tree, name, alone):
             yield path, kind
+
+
+def _inputs(reading: Reading) -> dict[str, list[Path]]:
+    """Return the paths of the inputs in which each name is listed."""
+    listed: dict[str, list[Path]] = {}
     for behavior in reading.mapping(("behaviors",)):
-        path = ("behaviors", behavior, "inputs")
+        path: Path = ("behaviors", behavior, "inputs")
         inputs = reading.at(path)
-        listed = (
-            inputs if isinstance(inputs, list) else [*inputs.values()] if isinstance(inputs, dict) else []
-        )
-        if name in listed:
-            yield path, "truth"
+        names = inputs if isinstance(inputs, list) else [*inputs.values()] if isinstance(inputs, dict) else []
+        for name in names:
+            if isinstance(name, str):
+                listed.setdefault(name, []).append(path)
+    return listed
 
 
 def _kinds_of_uses(tree: Expr, name: str, wanted: str) -> Iterator[str]:

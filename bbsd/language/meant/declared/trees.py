@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from bbsd.expression.foreign.tokens import reads
+from bbsd.expression.syntax.mistakes import ExpressionError
 from bbsd.expression.syntax.parsing import parse
 from bbsd.expression.syntax.tree import (
     Binary,
@@ -21,7 +22,7 @@ from bbsd.expression.syntax.tree import (
 from bbsd.language.field_types import scalar_text, signature
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from bbsd.expression.scope import Path
     from bbsd.language.meant.reading import Reading
@@ -32,6 +33,8 @@ OF_BEHAVIORS = ("excited", "expects", "inputs", "actions")
 STORED: tuple[Path, ...] = (("environment", "state"), ("environment", "world"))
 CHANGES: Path = ("environment", "dynamics")
 DEFINITIONS: Path = ("environment", "definitions")
+MAX_TREES = 4_096
+"""Texts whose trees are kept from one reading to the next."""
 MAX_TEXT = 2_000
 """Characters of an expression up to which it is looked into."""
 
@@ -39,7 +42,15 @@ MAX_TEXT = 2_000
 def parsed(value: Data) -> Expr | None:
     """Return the tree of a value that is an expression; None for anything else."""
     text = scalar_text(value)
-    return parse(text) if text is not None and len(text) <= MAX_TEXT and reads(text) else None
+    return None if text is None or len(text) > MAX_TEXT else _tree(text)
+
+
+@lru_cache(maxsize=MAX_TREES)
+def _tree(text: str) -> Expr | None:
+    try:
+        return parse(text)
+    except ExpressionError:
+        return None
 
 
 def trees_of_behaviors(reading: Reading) -> Iterator[tuple[Path, Expr]]:
@@ -70,16 +81,26 @@ def _below(path: Path, value: Data) -> Iterator[tuple[Path, Expr]]:
         yield path, tree
 
 
-def effects(reading: Reading, name: str) -> Iterator[tuple[Path, Expr | None]]:
-    """Yield what dynamics and actions set a value or elements of it to, None where that cannot be read."""
+def effects(reading: Reading) -> dict[str, list[tuple[Path, Expr | None]]]:
+    """Return what dynamics and actions set values or elements of them to, None where that cannot be read."""
     blocks: list[Path] = [CHANGES]
     for behavior in reading.mapping(("behaviors",)):
         actions: Path = ("behaviors", behavior, "actions")
         blocks += [(*actions, action) for action in reading.mapping(actions)]
+    found: dict[str, list[tuple[Path, Expr | None]]] = {}
     for block in blocks:
         for key, value in reading.mapping(block).items():
-            if key.partition("[")[0].strip() == name:
-                yield (*block, key), parsed(value)
+            found.setdefault(key.partition("[")[0].strip(), []).append(((*block, key), parsed(value)))
+    return found
+
+
+def by_name(found: Iterable[tuple[Path, Expr]]) -> dict[str, list[tuple[Path, Expr]]]:
+    """Return for each name the expressions that use it, with their paths."""
+    users: dict[str, list[tuple[Path, Expr]]] = {}
+    for path, tree in found:
+        for name in names_used(tree):
+            users.setdefault(name, []).append((path, tree))
+    return users
 
 
 def within(tree: Expr) -> Iterator[Expr]:
