@@ -10,7 +10,7 @@ from bbsd.errors import Diagnosis, Severity, SpecError
 from bbsd.expression.syntax.mistakes import KEY, WHOLE, characters_of_key
 from bbsd.language.lineage import read_lineage
 from bbsd.language.meaning import Meaning, elaborate
-from bbsd.language.validation import existing, form_mistakes, validate
+from bbsd.language.validation import child, existing, form_mistakes, validate
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from bbsd.expression.scope import Path
     from bbsd.expression.syntax.mistakes import Mistake
     from bbsd.language.lineage import Lineage
+    from bbsd.language.meant.reading import Reading
     from bbsd.language.models import Spec
     from bbsd.language.overrides import Override
     from bbsd.language.validation import LocatedMistake
@@ -167,8 +168,19 @@ def _examine(data: dict[str, Data], files: Lineage, seed: int, *, is_small: bool
     else:
         mistakes = form_mistakes(errors, reading.data)
         mistakes += _mistakes_of_meaning(reading.data, errors, seed) if is_small else []
-    elsewhere = ((reading.origin(path), mistake) for path, mistake in mistakes)
+    elsewhere = (_as_written(path, mistake, reading, data) for path, mistake in mistakes)
     return _Examined(None, (*reading.told, *elsewhere), frozenset(reading.explained))
+
+
+def _as_written(path: Path, mistake: Mistake, reading: Reading, data: Data) -> LocatedMistake:
+    """Return a mistake and its place in the file; its span and correction only if the text is as in the file."""
+    origin, before = reading.origin(path), data
+    for segment in origin:
+        before = child(before, segment)
+    now = reading.at(path)
+    if mistake.span in (KEY, WHOLE) or characters_of_key(mistake.span) is not None or now == before:
+        return origin, mistake
+    return origin, mistake._replace(span=WHOLE, correction=None)
 
 
 def _is_mistake(found: Mistake) -> bool:

@@ -264,3 +264,17 @@ def tuple_of_values(text: str, _key: str) -> Step | None:
     return Step(
         0, len(text), "a list is not written with commas alone", f"write {new}", new, is_certain=False
     )
+
+
+def braces(text: str, _key: str) -> Step | None:
+    """Find `lamp{1}`, an element of a cell array of MATLAB, which counts from 1."""
+    found = tokens(text)
+    for at, token in enumerate(found):
+        read = arguments(text, found, at) if token.text == "{" and not begins_operand(found, at) else None
+        if read is None or not read[0] or not all(map(reads, read[0])):
+            continue
+        indices = [str(int(each) - 1) if re.fullmatch(r"[1-9]\d*", each) else each for each in read[0]]
+        new, end = "".join(f"[{index}]" for index in indices), found[read[1]].end
+        message = "an element stands in [...], and elements count from 0"
+        return replacing(text, token.start, end, new, message, f"write {new}", is_certain=False)
+    return None

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bbsd.expression.foreign.calls import attribute, foreign_function, listed_arguments, module, open_bracket
 from bbsd.expression.foreign.conditionals import else_if, if_first, question_mark, without_else
 from bbsd.expression.foreign.lists import (
+    braces,
     comprehension,
     filtered,
     list_in_brackets,
@@ -60,6 +61,7 @@ RULES: tuple[Callable[[str, str], Step | None], ...] = (
     membership,
     slice_of_list,
     two_indices,
+    braces,
     comprehension,
     filtered,
     repeated,

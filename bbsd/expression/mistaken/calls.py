@@ -63,6 +63,9 @@ def indexed(call: Call, scope: Scope) -> Instead | None:
         return None
     if isinstance(binding, Definition) or (binding is None and not is_list):
         return None
+    if scope.robots == 1 and all(isinstance(each, Number) for each in call.arguments):
+        advice = f"{call.function} is one value: write {call.function}; only elements of lists have an index"
+        return Instead(advice, Rewriting(call.function, call.span, is_certain=False))
     new = call.function + "".join(f"[{render(argument)}]" for argument in call.arguments)
     return Instead(f"an element stands in [...]: write {new}", Rewriting(new, call.span))
 

@@ -25,7 +25,8 @@ from bbsd.language.meant.forms import (
     single_reward,
 )
 from bbsd.language.meant.keys import methods, options_of_commands, other_names, without_place, wrong_block
-from bbsd.language.meant.lists import lists_as_expressions
+from bbsd.language.meant.lists.brackets import lists_as_expressions
+from bbsd.language.meant.lists.indices import elements_from_one, elements_in_parentheses
 from bbsd.language.meant.names import functions, keys_of_dynamics, names
 from bbsd.language.meant.picture import places
 from bbsd.language.meant.reading import Reading
@@ -89,6 +90,8 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     cells_as_texts,
     values_in_quotes,
     lists_as_expressions,
+    elements_in_parentheses,
+    elements_from_one,
     functions,
     keys_of_dynamics,
     names,

@@ -1,0 +1,1 @@
+"""Lists as other languages have them: in brackets where an expression stands, with elements counted from 1."""
