@@ -27,7 +27,7 @@ from bbsd.language.meant.declared.trees import (
     by_name,
     effects,
     indices,
-    is_whole,
+    is_fraction,
     names_unrounded,
     parsed,
     trees,
@@ -47,41 +47,45 @@ OF_TRUTHS = ("chance", "any", "all")
 
 
 def fractions_as_indices(reading: Reading) -> None:
-    """Read `x: uniform(0, 4)` as a whole number, where x is an index and all that sets it keeps it whole."""
-    starts = [
-        (block, name, parsed(value)) for block in STORED for name, value in reading.mapping(block).items()
-    ]
-    drawn = [
-        (block, name, start)
-        for block, name, start in starts
-        if isinstance(start, Call) and start.function == "uniform" and len(start.arguments) == 2
-    ]
-    if not drawn:
-        return
+    """Read what is used as an index, and starts as or is set to a fraction, as a whole number."""
+    starts = {
+        (*block, name): parsed(value) for block in STORED for name, value in reading.mapping(block).items()
+    }
+    constants = {name: parsed(value) for name, value in reading.mapping(("constants",)).items()}
+    fractions = frozenset(name for name, tree in constants.items() if is_fraction(tree, frozenset()))
     uses: dict[str, list[Path]] = {}
     for path, index, _ in indices(reading, [*trees(reading)]):
         for name in names_unrounded(index):
             uses.setdefault(name, []).append(path)
-    whole = {
-        name
-        for name, value in reading.mapping(("constants",)).items()
-        if is_whole(parsed(value), frozenset())
+    indexing = {path: start for path, start in starts.items() if path[-1] in uses}
+    if not indexing:
+        return
+    own = {
+        str(path[-1])
+        for path, tree in starts.items()
+        if path not in indexing and is_fraction(tree, fractions)
     }
-    whole |= {name for _, name, start in starts if is_whole(start, frozenset(whole))}
-    whole |= {name for _, name, _ in drawn if name in uses}
-    set_to = effects(reading)
-    for block, name, start in drawn:
-        sets = set_to.get(name, ())
-        if name not in uses or not all(is_whole(tree, frozenset(whole)) for _, tree in sets):
+    set_to, fractions = effects(reading), fractions | own
+    for path, start in indexing.items():
+        name, wrong = str(path[-1]), [(path, start)] if is_fraction(start, fractions) else []
+        wrong += [(at, tree) for at, tree in set_to.get(name, ()) if is_fraction(tree, fractions)]
+        if not wrong or any(tree is None for _, tree in wrong):
             continue
-        path, first, last = (*block, name), *start.arguments
-        is_between_whole = all(is_whole(each, frozenset(whole)) for each in (first, last))
-        new = f"integers({render(first)}, {render(last)})" if is_between_whole else f"round({render(start)})"
-        message = f"{render(start)} need not be a whole number, and {name} is used as an index"
-        written = Rewriting(new, WHOLE, is_certain=False)
+        (where, first), new = wrong[0], None
+        advice = f"let {name} stay whole, or write floor({name}) where it is an index"
+        if len(wrong) == 1 and isinstance(start, Call) and start.function == "uniform" and where == path:
+            ends = [render(each) for each in start.arguments]
+            is_between_whole = not any(is_fraction(each, fractions) for each in start.arguments)
+            new = f"integers({', '.join(ends)})" if is_between_whole else f"round({render(start)})"
+            advice = f"write {name}: {new}"
+        message = (
+            f"{render(first) if first else name} need not be a whole number, and {name} is used as an index"
+        )
+        written = None if new is None else Rewriting(new, WHOLE, is_certain=False)
         seen = tuple(map(reading.origin, dict.fromkeys(uses[name])))[:MOST_SHOWN]
-        reading.tell(path, "BB064", message, f"write {name}: {new}", written, WHOLE, seen)
-        reading.set(path, new)
+        reading.tell(where, "BB064", message, advice, written, WHOLE, seen)
+        for at, tree in wrong:
+            reading.set(at, new or f"round({render(tree)})" if tree else "0")
 
 
 def truths_as_numbers(reading: Reading) -> None:

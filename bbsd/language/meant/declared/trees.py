@@ -148,28 +148,32 @@ def names_unrounded(tree: Expr) -> frozenset[str]:
     return frozenset()
 
 
-WHOLE_OPERATORS = ("+", "-", "*", "//", "%")
-WHOLE_FUNCTIONS = ("min", "max", "abs", "clip")
-ROUNDING = ("floor", "ceil", "round", "integers", "sign")
+FROM_PARTS = ("min", "max", "abs", "clip")
+"""Functions whose values are whole where all their arguments are."""
+FRACTIONAL = ("uniform", "normal", "sqrt", "sin", "cos", "exp", "hypot", "atan2")
 
 
-def is_whole(tree: Expr | None, names: frozenset[str]) -> bool:
-    """Return whether a value is certainly whole where the given names are."""
+def is_fraction(tree: Expr | None, fractions: frozenset[str]) -> bool:
+    """Return whether a value certainly cannot be proven to be whole, where the given names cannot."""
     match tree:
         case Number(value=value):
-            return value.is_integer()
+            return not value.is_integer()
         case Name(name=name):
-            return name in names
+            return name in fractions
         case Unary(operator="-" | "+", operand=operand):
-            return is_whole(operand, names)
-        case Binary(operator=operator, left=left, right=right) if operator in WHOLE_OPERATORS:
-            return is_whole(left, names) and is_whole(right, names)
+            return is_fraction(operand, fractions)
+        case Binary(operator="/", left=Number(value=left), right=Number(value=right)):
+            return right == 0 or not (left / right).is_integer()
+        case Binary(operator="/", left=left, right=right):
+            return not isinstance(right, Number) or right.value != 1 or is_fraction(left, fractions)
+        case Binary(operator="+" | "-" | "*" | "%", left=left, right=right):
+            return is_fraction(left, fractions) or is_fraction(right, fractions)
         case Conditional(then=then, otherwise=otherwise):
-            return is_whole(then, names) and is_whole(otherwise, names)
-        case Call(function=function) if function in ROUNDING:
+            return is_fraction(then, fractions) or is_fraction(otherwise, fractions)
+        case Call(function=function) if function in FRACTIONAL:
             return True
-        case Call(function=function, arguments=arguments) if function in WHOLE_FUNCTIONS:
-            return all(is_whole(each, names) for each in arguments)
+        case Call(function=function, arguments=arguments) if function in FROM_PARTS:
+            return any(is_fraction(each, fractions) for each in arguments)
     return False
 
 

@@ -66,8 +66,11 @@ def test_what_is_written_for_it() -> None:
          [("uniform(0, 2) need not be a whole number, and x is used as an index", "integers(0, 2)")]),
         ("uniform(0, 2.5)", "x + 1",
          [("uniform(0, 2.5) need not be a whole number, and x is used as an index", "round(uniform(0, 2.5))")]),
-        ("uniform(0, 2)", "x + 0.5", [("an index must be a whole number, and this need not be one", "round(at)")]),
-        ("integers(0, 2)", "x / 2", [("an index must be a whole number, and this need not be one", "round(at)")]),
+        ("uniform(0, 2)", "x + 0.5",
+         [("uniform(0, 2) need not be a whole number, and x is used as an index", None)]),
+        ("integers(0, 2)", "x / 2", [("x / 2 need not be a whole number, and x is used as an index", None)]),
+        ("0", "x + 6 / 2 + lost", [('unknown name "lost"', None)]),
+        ("integers(0, 2)", "floor(x / 2)", []),
         ("integers(0, 2)", "x + 1", []),
     ],
 )  # fmt: skip
