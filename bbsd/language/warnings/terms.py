@@ -31,9 +31,8 @@ def settled_terms(meaning: Meaning, prover: Prover) -> Iterator[LocatedMistake]:
         conditionals = [*_conditionals(tree)]
         if len(conditionals) != 1 or any(node.literal for node in nodes):
             continue
-        values = {prover.bounds.of(node) for node in nodes}
-        (low, high), *others = values
-        if others or low != high or not isfinite(low):
+        low, high = prover.bounds.of(nodes[0])
+        if low != high or not isfinite(low) or any(prover.bounds.of(node) != (low, high) for node in nodes):
             continue
         condition = conditionals[0].condition
         decided = {holds for node in nodes for holds in _decided(node, prover.bounds)}
