@@ -10,6 +10,8 @@ ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "tests" / "specs" / "newcomers"
 SECOND = FOLDER / "second"
 """A second hundred, of which the messages knew nothing when they were written."""
+THIRD = FOLDER / "third"
+"""A third set, of sixty, of which they knew nothing either."""
 LONG = 12
 """Characters of a word of a command that say all, such as a path."""
 SOURCE_LINE = re.compile(r"^ *\d+ \|.*$|^ +\| *\^+ *$", re.MULTILINE)
