@@ -184,10 +184,11 @@ def _belongs_above(reading: Reading, path: Path, key: str, above: str) -> bool:
         return key in own and not is_behavior and not own.keys().isdisjoint(inner)
     if path[2:] == ("actions",):
         is_value = value is not None and not isinstance(value, dict | list)
-        return is_value and key in reading.mapping(("environment", "state"))
+        return is_value and key.partition("[")[0] in reading.mapping(("environment", "state"))
     if path[:1] == ("behaviors",):
         state = reading.mapping(("environment", "state"))
-        return above == "actions" and isinstance(value, dict) and bool(value) and value.keys() <= state.keys()
+        effects = {name.partition("[")[0] for name in value} if isinstance(value, dict) else set()
+        return above == "actions" and bool(effects) and effects <= state.keys()
     if path == ("environment",) and above in BLOCKS_OF_EXPRESSIONS:
         stored = {**reading.mapping((*path, "state")), **reading.mapping((*path, "world"))}
         is_listed = _is_used(reading, key) and not isinstance(value, list)

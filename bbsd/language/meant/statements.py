@@ -227,7 +227,8 @@ def values_in_quotes(reading: Reading) -> None:
         if wrong:
             message += f", and {wrong} is none: did you mean {meant[wrong]}?"
         advice = f"write {meant[found[0]['name']]}"
-        reading.tell(path, "BB051", message, advice, Rewriting(written, span, not wrong), span)
+        code = "BB136" if is_one_of(text) else "BB051"
+        reading.tell(path, code, message, advice, Rewriting(written, span, not wrong), span)
         reading.replace(path, new)
 
 
