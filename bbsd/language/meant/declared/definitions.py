@@ -85,7 +85,10 @@ def rows_of_other_lengths(reading: Reading) -> None:
             continue
         has = f"{len(wrong)} value{'s' * (len(wrong) != 1)}"
         message = f"row {row} of {name}, counted from 0, has {has}, the others {length}"
-        reading.tell(path, "BB172", message, "the rows of a table are equally long", None, WHOLE)
+        if all(
+            parsed(each) is not None for each in wrong
+        ):  # else its length follows from what is wrong in it
+            reading.tell(path, "BB172", message, "the rows of a table are equally long", None, WHOLE)
         fill = (wrong or [0])[-1]
         reading.set(path, [*wrong[:length], *[fill] * (length - len(wrong))])
 

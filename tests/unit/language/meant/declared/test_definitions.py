@@ -51,6 +51,7 @@ def test_the_key_with_its_parameters_is_shown() -> None:
     [
         ("[[0, 1], [1], [0, 0]]", "room[x][0]", ["row 1 of room, counted from 0, has 1 value, the others 2"]),
         ("[[0, 1], [1, 0], [0, 0, 1]]", "room[x][1]", ["row 2 of room, counted from 0, has 3 values, the others 2"]),
+        ("[[0, 1], [0 1], [0, 0]]", "room[x][0]", ["this cannot be read as an expression from '1' on"]),
         ("[[0, 1], [1]]", "room[x][0]", ["rows of different lengths can only be indexed by a plain number"]),
         ("[[0, 1], [1], [0, 0]]", "sum(sum(row) for row in room)", []),
         ("[[0, 1], [1], [0, 0]]", "room[1][0] + lost", ['unknown name "lost"']),
