@@ -18,9 +18,23 @@ if TYPE_CHECKING:
     from bbsd.language.meaning.episode.episode import Episode
 
 FINITE = frozenset(
-    {"literal", "element", "constant", "step", "sign", "sin", "cos", "atan", "atan2", "tanh", "cell_of"}
+    {
+        "literal",
+        "table",
+        "constant",
+        "pick",
+        "element",
+        "step",
+        "sign",
+        "sin",
+        "cos",
+        "atan",
+        "atan2",
+        "tanh",
+        "cell_of",
+    }
 )
-"""Operations whose values are finite where those of slots are, whatever their operands."""
+"""Operations whose values are finite where those of slots are, whatever their operands; what is given counts so."""
 KEEPING = frozenset(
     {
         "slot",

@@ -41,6 +41,10 @@ CASES = {
         "sensors": {"s": "table[0][1 + floor(log(x))]", "t": "table[1][floor(log(wind))]"},
         "dynamics": {"y": "s + t"},
     },
+    "a cell by what is infinite for one robot": {
+        "left": {"inputs": {"side": {"this": "robot ** -2 >= y", "that": "otherwise"}}},
+        "dynamics": {"y": "y + 1"},
+    },
     "state without dynamics": {},
     "sensors": {"sensors": {"s": "x + y", "t": "s * 2"}, "dynamics": {"x": "x + s"}},
     "draws everywhere": {

@@ -67,7 +67,7 @@ def test_exploring_agents_have_random_structures_but_not_in_the_last_episodes():
     present = np.tile([0, 1, 2], (4000, 1))
     settings = learning(settings, episodes=4, last=2)
     often, never = (
-        replace(settings, rates=replace(settings.rates, exploration=4 * (rate,))) for rate in (0.3, 0.0)
+        replace(settings, rates=settings.rates._replace(exploration=4 * (rate,))) for rate in (0.3, 0.0)
     )
     explored = explore(problem, keys(1, 0, 4000), present, often, 2)
     others = np.mean((explored != present).any(axis=1))
@@ -82,7 +82,7 @@ def test_the_next_structures_compete_with_what_was_explored_or_with_what_was_bef
     problem, settings = guess()
     agents = random_agents(problem, 1, 200)
     settings = learning(settings, episodes=4, last=1, explored=explored)
-    settings = replace(settings, rates=replace(settings.rates, exploration=(0.0, 0.5, 0.5, 0.5)))
+    settings = replace(settings, rates=settings.rates._replace(exploration=(0.0, 0.5, 0.5, 0.5)))
     competing, lived = [], []
     chosen, run = module.choose, module.explore
 
@@ -108,7 +108,7 @@ def test_by_counters_a_pair_is_worth_its_share_of_the_reinforcement():
     problem, settings = guess("structure: [reckless, even, odd]")
     agents = random_agents(problem, 1, 1)
     settings = learning(settings, episodes=1, last=1, estimate="counters")
-    settings = replace(settings, rates=replace(settings.rates, learning=(1.0,)))
+    settings = replace(settings, rates=settings.rates._replace(learning=(1.0,)))
     lives = run_lifetimes(problem, agents, keys(1, 0, 1), 1, settings)
     # The reckless one on top says 9 in both steps: -1 a step, all the time.
     assert lives.values.tolist() == [[[0, 0, 0], [0, 0, 0], [0, 0, -1]]]
