@@ -57,13 +57,10 @@ class Loaded:
         """
         if self.overrides:
             return self._warnings_as_written()
+        from bbsd.language.warnings.extended import with_names_of_bases
         from bbsd.language.warnings.finding import warnings_of
 
-        found: Iterable[LocatedMistake] = warnings_of(self.meaning)
-        if len(self.lineage.documents) > 1:
-            from bbsd.language.warnings.extended import with_names_of_bases
-
-            found = with_names_of_bases(found, self.lineage)
+        found = with_names_of_bases(warnings_of(self.meaning), self.lineage)
         diagnoses = _diagnoses([*self.noted, *found], self.lineage, self.data, ())
         return tuple(_capped([each for each in diagnoses if each.place.file == self.source.file]))
 

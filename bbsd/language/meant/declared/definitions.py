@@ -45,7 +45,8 @@ def parameters_not_written(reading: Reading) -> None:
             continue
         new = f"{name}({', '.join([*parameters, *wanted])})"
         names, arguments = " and ".join(wanted), f"{number} argument{'s' * (number > 1)}"
-        has = f"has only {len(parameters)} parameters" if parameters else "has no parameters"
+        only = f"only {len(parameters)} parameter{'s' * (len(parameters) > 1)}"
+        has = f"has {only if parameters else 'no parameters'}"
         verb = "are names" if len(wanted) > 1 else "is a name"
         message = f"{name} {has}, but {names} in it {verb} of nothing, and it is called with {arguments}"
         written = Rewriting(new, KEY, is_certain=False)

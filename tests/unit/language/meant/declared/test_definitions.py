@@ -29,7 +29,7 @@ def messages(part: str) -> list[str]:
         ("gap", "abs(a - b) - least", "gap(height, speed)",
          ["gap has no parameters, but a and b in it are names of nothing, and it is called with 2 arguments"]),
         ("gap(a)", "abs(a - b) - least", "gap(height, speed)",
-         ["gap has only 1 parameters, but b in it is a name of nothing, and it is called with 2 arguments"]),
+         ["gap has only 1 parameter, but b in it is a name of nothing, and it is called with 2 arguments"]),
         ("gap", "abs(a - b) - least", "gap(height)",
          ['unknown name "a"', 'unknown name "b"', "gap has no parameters; write it without parentheses"]),
         ("gap", "height - least", "gap(height)", ["gap has no parameters; write it without parentheses"]),
