@@ -251,7 +251,8 @@ def _needed(path: Path, error: ErrorDetails) -> str:
         return "an expression or a list of them"
     if len(path) > 1 and path[-2] in NEEDED_BY_ITEM:
         return NEEDED_BY_ITEM[str(path[-2])]
-    if path and path[-1] in NEEDED_BY_KEY and error["type"] != "string_type":
+    is_behavior = len(path) == 2 and path[0] == "behaviors"
+    if path and path[-1] in NEEDED_BY_KEY and not is_behavior and error["type"] != "string_type":
         return NEEDED_BY_KEY[str(path[-1])]
     return NEEDED_BY_ERROR.get(error["type"]) or _number_needed(field)
 

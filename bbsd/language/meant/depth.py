@@ -162,19 +162,33 @@ def _take_out(reading: Reading, path: Path, block: str, key: str) -> None:
 def too_shallow(reading: Reading) -> None:
     """Put keys that stand beside the block above them, and can only belong to it, below it."""
     for path in [*blocks(reading)]:
-        above: str | None = None
         for key in [*reading.mapping(path)]:
+            above = _key_above(reading, path, key)
             if above is not None and _belongs_above(reading, path, key, above):
                 _put_above(reading, path, key, above)
-            else:
-                above = key
+
+
+def _key_above(reading: Reading, path: Path, key: str) -> str | None:
+    """Return the key of a block that stands next above another one, in the same file."""
+    own, document = reading.key((*path, key)), reading.document((*path, key))
+    if own is None:
+        return None
+    starts = {
+        name: other.start
+        for name in reading.mapping(path)
+        if (other := reading.key((*path, name))) is not None
+        and other.start < own.start
+        and reading.document((*path, name)) is document
+    }
+    return max(starts, key=lambda name: starts[name], default=None)
 
 
 def _belongs_above(reading: Reading, path: Path, key: str, above: str) -> bool:
     """Return whether a key that has no place in a block has one in the entry above it, which has none of that name."""
     value, block = reading.at((*path, key)), (*path, above)
     inner = reading.mapping(block)
-    if not inner or key in inner or key in (fields_at(path) or ()) or is_goal((*path, key)):
+    is_given = key in inner and reading.document((*block, key)) is reading.document((*path, key))
+    if not inner or is_given or key in (fields_at(path) or ()) or is_goal((*path, key)):
         return False
     if (path == () and key in TOP) or (path == ("environment",) and key in ENVIRONMENT):
         return False

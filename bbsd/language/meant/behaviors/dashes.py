@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bbsd.expression.syntax.mistakes import KEY, WHOLE
+from bbsd.expression.syntax.mistakes import KEY, WHOLE, Rewriting
 from bbsd.language.field_types import scalar_text
 from bbsd.language.meant.edits.layout import correction
 from bbsd.language.meant.words import RULE
@@ -111,6 +111,11 @@ def otherwise_apart(reading: Reading) -> None:
             ):
                 _tell_apart(reading, (*path, word), (*path, keys[1]), str(value), item[keys[1]])
                 reading.replace(path, {"otherwise": item[keys[1]]}, [(("otherwise",), (keys[1],))])
+            elif keys == ["do"] and isinstance(items, list) and 0 < at == len(items) - 1:
+                message = "this rule has no when: the last one, for all that is left, is called otherwise"
+                written = Rewriting("otherwise", KEY, is_certain=False)
+                reading.tell((*path, "do"), "BB021", message, "write otherwise, or add its when", written)
+                reading.rename((*path, "do"), "otherwise")
             elif (
                 keys == [word] and word in OTHERWISE and isinstance(value, dict) and {*value} <= DO and value
             ):

@@ -41,3 +41,9 @@ def test_a_missing_dash_is_told_once_and_written() -> None:
 def test_several_rules_are_joined_one_by_one() -> None:
     rules = "      - when: {contact: true}\n      - do: halt\n      - otherwise:\n      - do: no action\n"
     assert fixed(made(RULES, rules)).source.text == SPEC
+
+
+def test_a_last_rule_without_when_is_probably_otherwise() -> None:
+    source = made(RULES, ONE + "      - do: no action\n")
+    assert corrected(source) == SPEC
+    assert fixed(source).source == source
