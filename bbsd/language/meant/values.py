@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import re
 from typing import TYPE_CHECKING
@@ -60,6 +61,8 @@ def steps_in_time(reading: Reading) -> None:
     if not unit.startswith("step") and isinstance(dt, int | float) and dt > 0:
         seconds = number * (0.001 if unit == "ms" else SECONDS.get(unit[0], 1.0))
         number, advice = seconds / dt, f"with steps of {dt:g} seconds, write steps: {seconds / dt:g}"
+    if not math.isfinite(number):
+        return
     steps = max(1, round(number))
     message = f'steps must be a whole number of steps, not a time: "{value}"'
     written = Rewriting(str(steps), WHOLE, is_certain=unit.startswith("step"))
@@ -133,10 +136,10 @@ def _whole_of(text: str, constants: dict[str, Data]) -> int | None:
         value = _calculated(parse(text), constants)
     except (ExpressionError, ZeroDivisionError, OverflowError, TypeError):
         return None
-    whole = None if value is None else round(value)
-    return (
-        whole if whole is not None and value is not None and abs(whole - value) < 1e-9 * abs(value) else None
-    )
+    if value is None or not math.isfinite(value):
+        return None
+    whole = round(value)
+    return whole if abs(whole - value) < 1e-9 * abs(value) else None
 
 
 def _calculated(tree: Expr, constants: dict[str, Data]) -> float | None:

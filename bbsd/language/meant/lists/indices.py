@@ -126,7 +126,7 @@ def _is_beyond(use: Use, shape: Shape) -> bool:
 
 def _literal(index: Expr) -> int | None:
     """Return the whole number that an index is as it is written."""
-    return int(index.value) if isinstance(index, Number) and index.value == int(index.value) else None
+    return int(index.value) if isinstance(index, Number) and index.value.is_integer() else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,7 +274,7 @@ def _shape_of(tree: Expr, constants: dict[str, Data]) -> Shape:
 def _length(source: Expr, constants: dict[str, Data]) -> int | None:
     match source:
         case Call(function="range", arguments=(Number(value=value),)):
-            return int(value)
+            return int(value) if value.is_integer() else None
         case Call(function="range", arguments=(Name(name=name),)):
             length = constants.get(name)
             return length if isinstance(length, int) else None
