@@ -162,25 +162,22 @@ def _take_out(reading: Reading, path: Path, block: str, key: str) -> None:
 def too_shallow(reading: Reading) -> None:
     """Put keys that stand beside the block above them, and can only belong to it, below it."""
     for path in [*blocks(reading)]:
-        for key in [*reading.mapping(path)]:
-            above = _key_above(reading, path, key)
-            if above is not None and _belongs_above(reading, path, key, above):
-                _put_above(reading, path, key, above)
+        above: dict[int, str] = {}
+        for key, file in _keys_in_order(reading, path):
+            if file in above and _belongs_above(reading, path, key, above[file]):
+                _put_above(reading, path, key, above[file])
+            else:
+                above[file] = key
 
 
-def _key_above(reading: Reading, path: Path, key: str) -> str | None:
-    """Return the key of a block that stands next above another one, in the same file."""
-    own, document = reading.key((*path, key)), reading.document((*path, key))
-    if own is None:
-        return None
-    starts = {
-        name: other.start
-        for name in reading.mapping(path)
-        if (other := reading.key((*path, name))) is not None
-        and other.start < own.start
-        and reading.document((*path, name)) is document
-    }
-    return max(starts, key=lambda name: starts[name], default=None)
+def _keys_in_order(reading: Reading, path: Path) -> list[tuple[str, int]]:
+    """Return the keys of a block that begin lines, as they stand in their files, each with its file's identity."""
+    placed = [
+        (own.start, key, id(reading.document((*path, key))))
+        for key in reading.mapping(path)
+        if (own := reading.key((*path, key))) is not None
+    ]
+    return [(key, file) for _, key, file in sorted(placed)]
 
 
 def _belongs_above(reading: Reading, path: Path, key: str, above: str) -> bool:
