@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bbsd.text import Data
 
 SETTING = re.compile(
-    r"(?:(?:set|let)\s+)?(?P<name>[a-z]\w*(?:\[[^\]]*\])*)\s*(?P<sign>:=|<-|[-+*/]?=(?!=)|\s)\s*(?P<value>.+)"
+    r"(?P<verb>(?:set|let)\s+)?(?P<name>[a-z]\w*(?:\[[^\]]*\])*)\s*(?P<sign>:=|<-|[-+*/]?=(?!=)|\s)\s*(?P<value>.+)"
 )
 """An effect as a statement: `speed = 0`, `speed += 1`, NetLogo's `set speed 0`."""
 NEEDS_LINE = re.compile(r"[,\[\]{}#]|: ")
@@ -78,6 +78,8 @@ def _setting(text: str, state: dict[str, Data]) -> dict[str, str] | None:
     match = SETTING.fullmatch(text.strip())
     if match is None or match["name"].partition("[")[0] not in state or not reads(match["value"]):
         return None
+    if not match["sign"].strip() and match["verb"] is None and match["value"][0] in "+-":
+        return None  # a sum, as in `brake: speed - 0.2`
     operator = match["sign"].removesuffix("=").strip(":<-" if match["sign"] in (":=", "<-") else " ")
     return {match["name"]: f"{match['name']} {operator} {match['value']}" if operator else match["value"]}
 

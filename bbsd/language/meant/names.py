@@ -10,6 +10,7 @@ from bbsd.expression.reserved import RESERVED, Use, another_name
 from bbsd.expression.syntax.mistakes import KEY, Rewriting
 from bbsd.expression.syntax.parsing import NAME
 from bbsd.language.field_types import scalar_text
+from bbsd.language.keys import fields_at
 from bbsd.language.meant.edits.layout import correction
 from bbsd.language.meant.edits.uses import uses
 from bbsd.language.meant.forms import named_blocks
@@ -160,7 +161,15 @@ def names(reading: Reading) -> None:
             new = _with_underscores(old)
             if NAME.match(old) or "(" in old or new is None or new in reading.mapping(path):
                 continue
-            _rename(reading, path, old, new)
+            block, _, inner = old.partition(".")
+            if inner in (fields_at((*path, block)) or ()):
+                advice = f"write {block}: and, in the line below, {inner}:"
+                reading.tell(
+                    (*path, old), "BB024", f'"{old}" cannot be a name, nor a path to {inner}', advice
+                )
+                reading.remove((*path, old))
+                continue
+            _rename(reading, path, old, new, is_certain="." not in old)
 
 
 IN_SPECS = frozenset({"and", "or", "not", "if", "else", "for", "in", "is", "from"})

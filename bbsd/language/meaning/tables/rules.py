@@ -197,6 +197,12 @@ def _cells_matched(
             if (uncut := _uncut(word, name, cells)) is not None:
                 findings.report(where, "BB035", uncut[0], WHOLE, uncut[1])
                 continue
+            if (others := _others(word, cells)) is not None:
+                message = f'"{word}" is not a cell of {name}: a condition lists the cells in which it holds'
+                written = Rewriting(others[0], is_certain=True) if len(others) == 1 else None
+                advice = f"write {name}: {others[0] if len(others) == 1 else '[' + ', '.join(others) + ']'}"
+                findings.report(where, "BB035", message, WHOLE, advice, written)
+                continue
             hint = f'; did you mean "{near}"?' if near else ""
             message = f'"{word}" is not a cell of {name}{hint}'
             correction = Rewriting(near, is_certain=is_certain) if near else None
@@ -204,6 +210,14 @@ def _cells_matched(
     if None in named:
         return None
     return sorted({cell for matched in named for cell in matched or ()})
+
+
+def _others(word: str, cells: Labels) -> list[str] | None:
+    """Return the cells that `not CELL` means; None for other words, and for too many to list."""
+    negated = re.fullmatch(r"(?:not |!|~)\s*(.+)", word.strip())
+    if negated is None or negated[1] not in cells or len(cells) > MOST_BOUNDS:
+        return None
+    return [cell for cell in cells if cell != negated[1]]
 
 
 def _uncut(word: str, name: str, cells: Labels) -> tuple[str, str] | None:

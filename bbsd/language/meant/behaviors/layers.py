@@ -29,35 +29,39 @@ def unordered_structure(reading: Reading) -> None:
         names = re.split(MARKS, value.strip())
         if all(name in known for name in names):
             advice = f"a list is written in brackets: [{', '.join(names)}]"
-            _tell(reading, names, advice, is_certain="->" not in value)
+            _tell(reading, names, advice, is_certain="->" not in value and names != ["open"])
         return
     numbers = _numbers(value, known)
     if not numbers:
         return
     # bbsd's own tables give the highest layer the largest number; elsewhere 1 is often the highest.
-    names = sorted(numbers, key=lambda name: -numbers[name])
+    names = [name for name, _ in sorted(numbers, key=lambda pair: -pair[1])]
     other = f"structure: [{', '.join(reversed(names))}]"
     advice = f"the largest number is the highest layer here; if 1 is, write {other}"
     _tell(reading, names, advice, ", without numbers", is_certain=len(names) == 1)
 
 
-def _numbers(value: Data, known: list[str]) -> dict[str, float]:
-    """Return the numbers that behaviors are given, as `name: number`, `number: name`, or a list of either."""
+def _numbers(value: Data, known: list[str]) -> list[tuple[str, float]]:
+    """Return the numbers that layers are given, as `name: number`, `number: name`, or a list of either."""
     pairs: dict[str, Data] = {}
     if isinstance(value, dict):
         pairs = value
     elif isinstance(value, list) and all(isinstance(item, dict) and len(item) == 1 for item in value):
         pairs = {key: inner for item in value if isinstance(item, dict) for key, inner in item.items()}
         if len(pairs) != len(value):
-            return {}
-    if pairs and all(re.fullmatch(r"\d+", key) and isinstance(name, str) for key, name in pairs.items()):
-        pairs = {str(name): int(key) for key, name in pairs.items()}
-    numbers = {
-        name: float(number)
-        for name, number in pairs.items()
-        if isinstance(number, int | float) and not isinstance(number, bool) and name in known
-    }
-    return numbers if len(numbers) == len(pairs) else {}
+            return []
+    layers: list[tuple[Data, Data]] = [*pairs.items()]
+    if all(re.fullmatch(r"\d+", key) and isinstance(name, str) for key, name in pairs.items()):
+        layers = [(name, int(number)) for number, name in pairs.items()]
+    numbers = [
+        (name, float(number))
+        for name, number in layers
+        if isinstance(number, int | float)
+        and not isinstance(number, bool)
+        and isinstance(name, str)
+        and name in known
+    ]
+    return numbers if len(numbers) == len(pairs) else []
 
 
 def _tell(reading: Reading, names: list[str], advice: str, note: str = "", *, is_certain: bool) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bbsd.expression.foreign.tokens import reads
 from bbsd.expression.syntax.mistakes import WHOLE, Rewriting
+from bbsd.language.field_types import scalar_text
 from bbsd.language.validation import list_text, named, names_in
 
 if TYPE_CHECKING:
@@ -27,16 +28,24 @@ def lists_as_expressions(reading: Reading) -> None:
         message = (
             f"{named(path)} must be an expression, not a list: in expressions a list is written list(...)"
         )
-        advice, is_certain = f"write {named(path)}: {text}", True
-        is_drawn = isinstance(value, list) and _is_range(value) and not _is_indexed(reading, path)
-        if path[1] in STORED and is_drawn:
-            drawn = text.replace("list(", "uniform(", 1)
+        advice, meant = f"write {named(path)}: {text}", text
+        written: Rewriting | None = Rewriting(text, WHOLE, is_certain=True)
+        if path[1] in STORED and isinstance(value, list) and _is_number(reading, path, len(value)):
             message = f"{named(path)} must be an expression, not a list"
-            advice = f"a number drawn between the two is {drawn}; a list of both is {text}"
-            text, is_certain = drawn, False
-        reading.tell(path, "BB022", message, advice, Rewriting(text, WHOLE, is_certain), WHOLE)
+            advice, meant, written = (
+                f"it is used as one number; a list would be {text}",
+                scalar_text(value[0]) or "0",
+                None,
+            )
+            if _is_range(value):
+                meant = text.replace("list(", "uniform(", 1)
+                advice = f"a number drawn between the two is {meant}; a list of both is {text}"
+                written = Rewriting(meant, WHOLE, is_certain=False)
+            elif len(value) == reading.at(("environment", "robots")):
+                advice = "each robot starts with one number: an element of a list in constants, as in starts[robot]"
+        reading.tell(path, "BB022", message, advice, written, WHOLE)
         reading.explained.add(reading.origin(path))
-        reading.replace(path, text)
+        reading.replace(path, meant)
 
 
 def _places(reading: Reading) -> list[Path]:
@@ -50,22 +59,31 @@ def _places(reading: Reading) -> list[Path]:
 
 
 def _is_range(value: list[Data]) -> bool:
-    """Return whether a list is a smaller number and a larger one."""
+    """Return whether a list is a smaller number and a larger one, or two expressions."""
     match value:
         case [int() | float() as low, int() | float() as high]:
             return low < high
+        case [int() | float() | str(), int() | float() | str()]:
+            return True
     return False
 
 
-def _is_indexed(reading: Reading, path: Path) -> bool:
-    """Return whether elements of a value are used somewhere: `goal[0]`, `for x in goal`."""
-    name = re.escape(str(path[-1]))
-    return _has(reading.data, re.compile(rf"(?<![\w.]){name}\s*\[|\bin {name}\b"))
+def _is_number(reading: Reading, path: Path, length: int) -> bool:
+    """Return whether a value is used as a number somewhere; an index of state may be that of a robot."""
+    name = rf"(?<![\w.]){re.escape(str(path[-1]))}"
+    if _has(reading.data, re.compile(rf"(?<!\bin ){name}(?![\w(\[])")):
+        return True
+    is_of_robots = path[1] == "state" and length > 1 and reading.at(("environment", "robots")) == length
+    return (
+        is_of_robots
+        and _has(reading.data, re.compile(rf"{name}\["))
+        and not _has(reading.data, re.compile(rf"{name}\[[^\[\]]*\]\["))
+    )
 
 
 def _has(data: Data, word: re.Pattern[str]) -> bool:
     if isinstance(data, dict):
-        return any(word.search(key) is not None or _has(value, word) for key, value in data.items())
+        return any(_has(value, word) for value in data.values())
     if isinstance(data, list):
         return any(_has(item, word) for item in data)
     return isinstance(data, str) and word.search(data) is not None

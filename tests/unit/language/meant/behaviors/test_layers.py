@@ -46,3 +46,13 @@ def test_both_readings_of_numbers_are_told() -> None:
 )
 def test_a_text_is_in_the_order_of_the_list(structure: str) -> None:
     assert fixed(written(structure)).source.text == SPEC_OF_TWO.text
+
+
+def test_no_open_layer_is_lost() -> None:
+    open_ones = SPEC_OF_TWO.text.replace("[wait, drive]", "[open, open]")
+    assert corrected(written("structure: {1: open, 2: open}")) == open_ones
+
+
+def test_how_many_layers_are_open_is_not_certain() -> None:
+    source = written("structure: open")
+    assert fixed(source).source == source

@@ -51,3 +51,17 @@ def test_two_numbers_that_are_never_indexed_are_probably_drawn_between() -> None
 def test_an_unreadable_list_is_told_once(value: str) -> None:
     text = made(STATE, goal(value)).text.replace(REWARD, REWARD + "\n  near: sum(goal[r][1] for r in team)")
     assert len(check(Source("docking.yaml", text))) == 1
+
+
+def test_a_list_that_is_used_as_one_number_is_not_corrected_to_a_list() -> None:
+    source = made("    distance: uniform(2, 5)", "    distance: [2, 5, 3]")
+    (mistake,) = check(source)
+    assert mistake.correction is None
+    assert mistake.advice == "it is used as one number; a list would be list(2, 5, 3)"
+    assert fixed(source).source == source
+
+
+def test_two_expressions_that_are_used_as_one_number_are_probably_drawn_between() -> None:
+    source = made("    distance: uniform(2, 5)", '    distance: [2, "2 + 3"]')
+    assert corrected(source) == made("uniform(2, 5)", "uniform(2, 2 + 3)").text
+    assert fixed(source).source == source
