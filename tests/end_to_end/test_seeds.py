@@ -73,7 +73,7 @@ def test_a_design_that_cannot_be_begun_ends_all_with_its_reason(tmp_path):
 
 
 def started(out, *more):
-    long = ("--set", "design.method=random", "--budget", "1_600_000")
+    long = ("--set", "design.method=random", "--set", "environment.steps=1000", "--budget", "1_600_000")
     return subprocess.Popen(
         [sys.executable, "-m", "bbsd", "design", SPEC, "--seeds", "1-3", *long, "--out", out, *more],
         stdout=subprocess.PIPE,
