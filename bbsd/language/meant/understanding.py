@@ -106,7 +106,8 @@ READINGS: tuple[Callable[[Reading], None], ...] = (
     what_the_world_has,
 )
 """What is read as something else, in this order: where blocks stand, then what they are, then what is in them."""
-MAX_CHARACTERS = 300_000
+MAX_CHARACTERS = 100_000
+"""Of all files together, up to which it is asked what is meant: a longer one takes too long."""
 
 
 def as_meant(data: dict[str, Data], files: Lineage) -> Reading:
