@@ -222,17 +222,9 @@ def _is_term(reading: Reading, value: Data) -> bool:
 
 
 def _is_used(reading: Reading, name: str) -> bool:
-    """Return whether a name stands in a value somewhere, or in a key of rules."""
+    """Return whether a name stands in a value somewhere."""
     word = re.compile(rf"(?<![\w.]){re.escape(name)}(?![\w(])")
-    return NAME.match(name) is not None and _has(reading.data, word)
-
-
-def _has(data: Data, word: re.Pattern[str]) -> bool:
-    if isinstance(data, dict):
-        return any(_has(value, word) for value in data.values())
-    if isinstance(data, list):
-        return any(_has(item, word) for item in data)
-    return isinstance(data, str) and word.search(data) is not None
+    return NAME.match(name) is not None and reading.has(word)
 
 
 def _put_above(reading: Reading, path: Path, key: str, above: str) -> None:

@@ -11,6 +11,7 @@ from bbsd.language.validation import child
 from bbsd.text.nodes import Mapping, Scalar
 
 if TYPE_CHECKING:
+    import re
     from collections.abc import Sequence
 
     from bbsd.errors import Correction
@@ -57,6 +58,10 @@ class Reading:
         """Return the mapping at a path; an empty one, which is not part of the data, where there is none."""
         value = self.at(path)
         return value if isinstance(value, dict) else {}
+
+    def has(self, word: re.Pattern[str]) -> bool:
+        """Return whether a word stands in a text somewhere, keys aside."""
+        return _has(self.data, word)
 
     def document(self, path: Path) -> Document:
         """Return the file in which a path stands."""
@@ -123,3 +128,11 @@ class Reading:
         # The places of parts are looked up in the file as it was, before those of other moves.
         for new, old in parts:
             self._moves.append(((*path, *new), (*path, *old)))
+
+
+def _has(data: Data, word: re.Pattern[str]) -> bool:
+    if isinstance(data, dict):
+        return any(_has(value, word) for value in data.values())
+    if isinstance(data, list):
+        return any(_has(item, word) for item in data)
+    return isinstance(data, str) and word.search(data) is not None

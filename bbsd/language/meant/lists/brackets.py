@@ -71,19 +71,11 @@ def _is_range(value: list[Data]) -> bool:
 def _is_number(reading: Reading, path: Path, length: int) -> bool:
     """Return whether a value is used as a number somewhere; an index of state may be that of a robot."""
     name = rf"(?<![\w.]){re.escape(str(path[-1]))}"
-    if _has(reading.data, re.compile(rf"(?<!\bin ){name}(?![\w(\[])")):
+    if reading.has(re.compile(rf"(?<!\bin ){name}(?![\w(\[])")):
         return True
     is_of_robots = path[1] == "state" and length > 1 and reading.at(("environment", "robots")) == length
     return (
         is_of_robots
-        and _has(reading.data, re.compile(rf"{name}\["))
-        and not _has(reading.data, re.compile(rf"{name}\[[^\[\]]*\]\["))
+        and reading.has(re.compile(rf"{name}\["))
+        and not reading.has(re.compile(rf"{name}\[[^\[\]]*\]\["))
     )
-
-
-def _has(data: Data, word: re.Pattern[str]) -> bool:
-    if isinstance(data, dict):
-        return any(_has(value, word) for value in data.values())
-    if isinstance(data, list):
-        return any(_has(item, word) for item in data)
-    return isinstance(data, str) and word.search(data) is not None
